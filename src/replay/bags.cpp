@@ -17,6 +17,10 @@
 
 namespace organ_collision {
 
+void ScopedBagLog::log(const std::string& text, console_bridge::LogLevel level, const char*, int) {
+  if (level >= console_bridge::CONSOLE_BRIDGE_LOG_WARN) lines_.insert(plain_text(text, 200));
+}
+
 void open(rosbag::Bag& bag, const std::string& file) {
   try {
     bag.open(file, rosbag::bagmode::Read);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <console_bridge/console.h>
 #include <organ_collision/ContactArray.h>
 #include <ros/time.h>
 #include <rosbag/bag.h>
@@ -11,10 +12,27 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
 namespace organ_collision {
+
+/// While an object of this class lives, it keeps what the library that reads bags logs, each line
+/// once. Otherwise, the library would print lines of its own beside the error that it throws.
+class ScopedBagLog : public console_bridge::OutputHandler {
+ public:
+  ScopedBagLog() { console_bridge::useOutputHandler(this); }
+  ~ScopedBagLog() override { console_bridge::restorePreviousOutputHandler(); }
+  ScopedBagLog(const ScopedBagLog&) = delete;
+  ScopedBagLog& operator=(const ScopedBagLog&) = delete;
+
+  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override;
+  const std::set<std::string>& lines() const { return lines_; }
+
+ private:
+  std::set<std::string> lines_;
+};
 
 /// Opens a bag to read it. Throws InputError. A damaged bag may end the program.
 void open(rosbag::Bag& bag, const std::string& file);

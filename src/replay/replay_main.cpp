@@ -193,6 +193,7 @@ void explain_few_answers(const ReplayOptions& options, std::size_t answers,
 }
 
 void replay(const ReplayOptions& options) {
+  const ScopedBagLog log;
   const YamlParameters parameters(options.parameters, options.node);
   const NodeParameters node = parameters.node_parameters();
   for (const std::string& sentence : node.misspelt) std::cerr << "replay: " << sentence << '\n';
@@ -232,6 +233,9 @@ void replay(const ReplayOptions& options) {
   replay.finish();
   check_frames(tools, options.in, replay);
   answers.complete();
+  for (const std::string& line : log.lines()) {
+    std::cerr << "replay: " << options.in << ": " << line << std::endl;
+  }
   print(answers.summary() + "\n");
   if (!(node.rate_hz > 0.0)) explain_few_answers(options, answers.count(), transforms);
 }

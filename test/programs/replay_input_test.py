@@ -1,12 +1,7 @@
 #!/usr/bin/python3
 """Bad input to replay: one clear line, exit code 2, and no OUT.bag."""
 
-import collections
-import multiprocessing.pool
 import os
-import random
-import re
-import resource
 import shutil
 import signal
 import subprocess
@@ -17,7 +12,7 @@ import rosbag
 from std_msgs.msg import String
 from support.tool_over_sheet import SHEET, at_height
 
-from recording import CONTACTS, messages, ReplayCase, TOOLS, serialized
+from recording import CONTACTS, ReplayCase, TOOLS, serialized
 
 GRIPPER = os.path.join(os.environ['TEST_DATA'], 'tools', 'gripper.urdf')
 LINKS = 'tools:\n  - {name: grip, links: [wrist, jaw]%s}\n'
@@ -173,81 +168,6 @@ class ReplayInputTest(ReplayCase):
             self.assertIn('interrupted', replay.communicate(timeout=60)[1])
             self.assertEqual(replay.returncode, 1)
         self.assertFalse([name for name in os.listdir(self.folder) if name.startswith('out')])
-
-
-class DamageTest(ReplayCase):
-    """Neither a damaged bag nor a full disk ends replay by a signal. OpenGL is not needed for this."""
-
-    PARAMETERS = 'picker: cpu\n' + TOOLS
-
-    def record_scene(self, compression='none'):
-        with self.record(compression=compression) as bag:
-            bag.resting(1.0)
-            for i in range(6):
-                bag.tool(2.0 + 0.1 * i, at_height(0.01 - 0.002 * i))
-                (bag.vertices if i else bag.mesh)(2.0 + 0.1 * i, SHEET)
-
-    def mutants(self):
-        """64 bags in which one byte has changed: anywhere, or in one of the numbers by which the library finds its way."""
-        for compression in 'none', 'bz2':
-            self.record_scene(compression)
-            with open(self.recorded, 'rb') as file:
-                data = file.read()
-            numbers = [place for match in re.finditer(rb'(?:count|pos|size|conn|ver|op)=', data)
-                       for place in range(match.end(), match.end() + 4)]
-            numbers += [place for match in re.finditer(rb'op=\x04', data) for place in range(match.end() + 11, match.end() + 40)]
-            chance = random.Random(7)
-            for number in range(32):
-                place = chance.choice(numbers) if number % 2 else chance.randrange(len(data))
-                yield data[:place] + bytes([data[place] ^ chance.randrange(1, 256)]) + data[place + 1:]
-
-    def replay_mutant(self, number, mutant):
-        bag, answers = 'in%d.bag' % number, 'out%d.bag' % number
-        self.write(bag, mutant)
-        return answers, self.run_program('--parameters', 'parameters.yaml', bag, answers, program=os.environ['REPLAY'])
-
-    def test_a_changed_byte_gives_answers_or_one_line(self):
-        self.write('parameters.yaml', self.PARAMETERS)
-        with multiprocessing.pool.ThreadPool(2) as pool:
-            done = pool.starmap(self.replay_mutant, enumerate(self.mutants()))
-        self.assertEqual(len(done), 64)
-        ended = collections.Counter()
-        for number, (answers, result) in enumerate(done):
-            with self.subTest(mutant=number):
-                said = result.stderr
-                self.assertIn(result.returncode, (0, 1, 2), said)
-                self.assertEqual(os.path.exists(self.path(answers)), result.returncode == 0, said)
-                self.assertFalse(os.path.exists(self.path(answers + '.incomplete')))
-                own = [line for line in said.splitlines() if re.match(r'in\d+\.bag: |replay: |out\d+\.bag: ', line)]
-                self.assertEqual(len(own), 1 if result.returncode else 0, said)
-                ended[result.returncode, 'by signal' in said] += 1
-        self.assertGreater(ended[0, False], 3, ended)
-        self.assertGreater(ended[2, False], 3, ended)
-        self.assertGreater(ended[1, True], 0, ended)  # Otherwise, the test does not reach the library's faults.
-        self.assertLess(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss, 2**20)  # [KiB]
-
-    def test_a_disk_that_is_full(self):
-        """The limit of a file's size is reached when the answers are written, or when the bag is closed. Without its
-        handler, the signal of the limit ends the process."""
-        self.record_scene()
-        self.write('parameters.yaml', self.PARAMETERS)
-        for trap, blocks, words in [("trap '' XFSZ", blocks, 'out.bag: cannot be written: File too large')
-                                    for blocks in (0, 1, 8, 12)] + [('true', 1, 'ended by signal')]:
-            done = self.run_program('-c', '%s; ulimit -f %d; exec "$REPLAY" --parameters parameters.yaml --with-input '
-                                    'in.bag out.bag' % (trap, blocks), program='/bin/sh')
-            self.assertEqual((done.returncode, done.stdout), (1, ''), done.stderr)
-            self.assertRegex(done.stderr, r'\A.*%s.*\n\Z' % words)
-            self.assertEqual(sorted(os.listdir(self.folder)), ['in.bag', 'parameters.yaml'])
-
-    def test_a_full_stdout(self):
-        """The answers are there all the same."""
-        self.record_scene()
-        self.write('parameters.yaml', self.PARAMETERS)
-        with open('/dev/full', 'w') as full:
-            done = subprocess.run([os.environ['REPLAY'], '--parameters', 'parameters.yaml', 'in.bag', 'out.bag'], cwd=self.folder,
-                                  stdout=full, stderr=subprocess.PIPE, text=True)
-        self.assertEqual((done.returncode, done.stderr), (1, 'replay: stdout cannot be written: No space left on device\n'))
-        self.assertEqual(len(messages(self.answers)), 6)
 
 
 class RobotTest(ReplayCase):
