@@ -69,13 +69,18 @@ void check_sizes(const PointCloud2& cloud) {
   }
 }
 
-/// The coordinate of a vertex along an axis (0: x) as a 32-bit float. Throws MessageError if it is
-/// NaN, infinite, or too large for a float.
-float coordinate(double value, std::size_t vertex, std::size_t axis) {
-  const auto rounded = static_cast<float>(value);
-  if (std::isfinite(rounded)) return rounded;
+/// Refuses the coordinate of a vertex along an axis (0: x).
+[[noreturn]] void refuse(double value, std::size_t vertex, std::size_t axis) {
   throw MessageError("not finite", "xyz"[axis], " of vertex ", vertex, " is ", value,
                      "; coordinates must be finite 32-bit floats, in metres");
+}
+
+/// A coordinate as a 32-bit float. Throws MessageError if it is NaN, infinite, or too large for a
+/// float.
+float coordinate(double value, std::size_t vertex, std::size_t axis) {
+  const auto rounded = static_cast<float>(value);
+  if (!std::isfinite(rounded)) refuse(value, vertex, axis);
+  return rounded;
 }
 
 /// Copies one field of all points to an axis of the vertices.
@@ -135,7 +140,11 @@ std::vector<float> placed(const std::vector<geometry_msgs::Point>& points,
   std::vector<float> vertices;
   vertices.reserve(3 * points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector3d vertex = T_frame_points * to_eigen(points[i]);
+    const Eigen::Vector3d point = to_eigen(points[i]);
+    for (int axis = 0; axis < 3; ++axis) {  // The transform would make all three NaN.
+      if (!std::isfinite(point[axis])) refuse(point[axis], i, axis);
+    }
+    const Eigen::Vector3d vertex = T_frame_points * point;
     for (int axis = 0; axis < 3; ++axis) vertices.push_back(coordinate(vertex[axis], i, axis));
   }
   return vertices;
