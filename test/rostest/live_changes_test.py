@@ -80,14 +80,16 @@ class LiveChangesTest(KeepsContract, ToolCase):
         self.assertGreater(max(len(a.contacts) for a in self.answers('kept')), 0)
         self.assertEqual(self.node.query(self.organ, tool='saw').status, ContactArray.UNKNOWN_TOOL)
         self.assertEqual(self.reloaded(), "removed: 'kept'")
+        self.node.diagnostics.wait_for_summary('tools', '~tools is empty')
 
     def test_steps_go_on_while_a_robot_is_read_that_takes_long(self):
-        """The parser of URDF needs a time that grows with the square of the depth. It is ended after 4 s of the processor."""
+        """The parser of URDF needs a time that grows with the square of the depth. It may take 1.3 s of the
+        processor, and 30 s in all if that is busy."""
         self.reloaded(shaft('kept'))
         self.step(SHEET, {'kept': at_height(0.05)})
         answers, steps = [], 0
         with tempfile.NamedTemporaryFile('w', suffix='.urdf') as urdf:
-            urdf.write('<robot name="slow"><link name="tip"/>' + 10**6 * '<a>' + 10**6 * '</a>' + '</robot>')
+            urdf.write('<robot name="slow"><link name="tip"/>' + 300000 * '<a>' + 300000 * '</a>' + '</robot>')
             urdf.flush()
             slow = dict(name='slow', urdf=urdf.name, links=['tip'])
             thread = threading.Thread(target=lambda: answers.append(self.reload(shaft('kept'), slow)))
@@ -97,11 +99,10 @@ class LiveChangesTest(KeepsContract, ToolCase):
                 steps += 1
             thread.join()
         self.assertFalse(answers[0].success)
-        self.assertIn('robot_reader was ended by signal %d ' % signal.SIGPROF, answers[0].message)
+        self.assertRegex(answers[0].message, 'robot_reader (was ended by signal %d|took more than 30 s)' % signal.SIGPROF)
         self.assertGreater(steps, 2)
         self.assert_no_gap('kept')
         self.assertEqual(self.reloaded(), "removed: 'kept'")
-        self.node.diagnostics.wait_for_summary('tools', '~tools is empty')
 
     def test_what_is_illegal_changes_nothing(self):
         """Subscriptions are the last thing that can fail, and must not leave half of the new list."""
