@@ -23,6 +23,7 @@ _MODULES = {
     'Organ': 'organ',
     'Queries': 'queries',
 }
+__all__ = sorted(_MODULES)
 
 
 def __getattr__(name):

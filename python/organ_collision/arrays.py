@@ -16,9 +16,11 @@ def vertex_array(vertices):
 
 
 def face_array(faces, vertex_count):
-    """A copy of `faces` as m x 3 indices. Raises ValueError if it is not m x 3, and if an index is no integer or
-    there is no such vertex."""
+    """A copy of `faces` as m x 3 indices. Raises ValueError if it is not m x 3, if an index is no integer or there is
+    no such vertex, and if there are vertices but no faces."""
     given = _number_array(faces, 'faces', 'm x 3: one row of three vertex indices for each triangle')
+    if vertex_count and not given.size:
+        raise ValueError('faces is empty, but there are %d vertices; an organ has at least one face' % vertex_count)
     if given.size and given.dtype.kind not in 'iu':
         raise ValueError('faces has the type %s; vertex indices must be integers' % given.dtype)
     wrong = np.flatnonzero(((given < 0) | (given >= vertex_count)).any(axis=1))

@@ -32,11 +32,16 @@ class Organ(rospy.SubscribeListener):
     _lock = threading.Lock()
 
     def __init__(self, name, vertices, faces, frame=None, node='/organ_collision', stamp=None):
-        self._mesh, self._taken = organ_mesh(name, vertices, faces, frame, stamp=stamp), None
+        self._mesh, self._taken = _with_faces(organ_mesh(name, vertices, faces, frame, stamp=stamp)), None
         self._organs = rospy.ServiceProxy(node + '/list_organs', ListOrgans)
         self._shapes = rospy.Publisher(node + '/organ_vertices', OrganVertices, queue_size=_QUEUE)
         self._meshes = rospy.Publisher(node + '/organ_mesh', OrganMesh, self, queue_size=_QUEUE)
         self._send_mesh(self._mesh)
+
+    @property
+    def topology(self):
+        """The revision of the faces, as the node's answers name it: 0 at first. replace() and remove() raise it by 1."""
+        return self._mesh.topology
 
     def move(self, vertices, stamp=None):
         """Sends a new shape: n x 3 positions of the same vertices, in the same order.
@@ -57,12 +62,15 @@ class Organ(rospy.SubscribeListener):
 
     def replace(self, vertices, faces, stamp=None):
         """Sends other triangles, as after a cut."""
-        old = self._mesh
-        self._send_mesh(organ_mesh(old.organ, vertices, faces, old.header.frame_id, old.topology + 1, stamp))
+        self._send_mesh(_with_faces(self._next_mesh(vertices, faces, stamp)))
 
     def remove(self):
         """Removes the organ from the node."""
-        self.replace(np.empty((0, 3)), np.empty((0, 3)))
+        self._send_mesh(self._next_mesh(np.empty((0, 3)), np.empty((0, 3))))
+
+    def _next_mesh(self, vertices, faces, stamp=None):
+        old = self._mesh
+        return organ_mesh(old.organ, vertices, faces, old.header.frame_id, old.topology + 1, stamp)
 
     def _wait_until_taken(self, mesh):
         end = time.monotonic() + _PATIENCE
@@ -86,3 +94,10 @@ class Organ(rospy.SubscribeListener):
         with self._lock:
             self._taken = None
             peer_publish(self._mesh)
+
+
+def _with_faces(mesh):
+    """Refuses a mesh without faces, because it would remove the organ."""
+    if not len(mesh.triangles):
+        raise ValueError('%s has no faces; an organ has at least one, and remove() removes it' % mesh.organ)
+    return mesh

@@ -10,6 +10,9 @@ from organ_collision.messages import link_motions, shaft_motion, shaft_motions
 from organ_collision.msg import ContactArray
 from organ_collision.srv import QueryCollision, QueryCollisionBatch
 
+_REFUSED = 'was refused: '  # what the node's message says if the organ has no mesh because the node refused it
+_PATIENCE = 2.0  # [s]
+
 
 class Queries:
     """Asks a collision node what a shaft, or one of its tools, would touch. A query changes nothing in the node.
@@ -82,8 +85,10 @@ class Queries:
         return answer.results
 
     def wait_for(self, organ, timeout=None, frame=None):
-        """Waits until the node has the organ. Raises the node's CollisionError if it has not within `timeout` [s]."""
+        """Waits until the node has the organ. Raises the node's CollisionError if it has not within `timeout` [s], or
+        if the node refused its mesh: the text says why. A refusal counts if no better mesh has come for 2 s."""
         end = None if timeout is None else time.monotonic() + timeout
+        refused = None  # since when the refusal stands
         while True:
             try:
                 self.query(organ, (0, 0, 0), (0, 0, 0), 1e-6, frame=frame)
@@ -91,7 +96,9 @@ class Queries:
             except CollisionError as error:
                 if error.status not in (ContactArray.UNKNOWN_ORGAN, ContactArray.NO_MESH):
                     raise
-                if end is not None and time.monotonic() > end:
+                now = time.monotonic()
+                refused = (refused or now) if _REFUSED in str(error) else None
+                if (end is not None and now > end) or (refused and now > refused + _PATIENCE):
                     raise
             rospy.rostime.wallsleep(0.01)
 

@@ -18,6 +18,7 @@
 #include <set>
 
 #include "geometry/distance/closest_points.hpp"
+#include "offline/user_input.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 #include "organ_collision/ros/names.hpp"
 #include "ros/markers/markers.hpp"
@@ -226,7 +227,7 @@ class DemoReport {
       std::printf(", up to %.1f N, %.0f poses/s\n", proxy_.recent_force, proxy_.poses / seconds);
     }
     if (!failure_.empty()) std::printf("        %s\n", failure_.c_str());
-    std::fflush(stdout);
+    flush_stdout();
     shapes_ = answers_ = proxy_.poses = 0;
     proxy_.recent_force = 0.0;
     failure_.clear();
@@ -263,7 +264,7 @@ class DemoReport {
         "%.1f N; %.0f us a tick on average.\n",
         proxy_.answered, 100.0 * proxy_.held / all, proxy_.greatest_force,
         kMicroseconds * proxy_.tick_sec / all);
-    std::fflush(stdout);
+    flush_stdout();
     return contacts > 0 && proxy_.answered > 0;
   }
 

@@ -69,14 +69,31 @@ void check_sizes(const PointCloud2& cloud) {
   }
 }
 
-/// Copies one field of all points to to[0], to[3], to[6] ...
+/// Refuses the coordinate of a vertex along an axis (0: x).
+[[noreturn]] void refuse(double value, std::size_t vertex, std::size_t axis) {
+  throw MessageError("not finite", "xyz"[axis], " of vertex ", vertex, " is ", value,
+                     "; coordinates must be finite 32-bit floats, in metres");
+}
+
+/// A coordinate as a 32-bit float. Throws MessageError if it is NaN, infinite, or too large for a
+/// float.
+float coordinate(double value, std::size_t vertex, std::size_t axis) {
+  const auto rounded = static_cast<float>(value);
+  if (!std::isfinite(rounded)) refuse(value, vertex, axis);
+  return rounded;
+}
+
+/// Copies one field of all points to an axis of the vertices.
 template <typename Number, order kOrder>
-void copy(const PointCloud2& cloud, std::size_t offset, float* to) {
+void copy(const PointCloud2& cloud, std::size_t offset, std::size_t axis,
+          std::vector<float>& vertices) {
+  std::size_t vertex = 0;
   for (std::size_t row = 0; row < cloud.height; ++row) {
     const std::uint8_t* from = cloud.data.data() + row * cloud.row_step + offset;
-    for (std::size_t column = 0; column < cloud.width; ++column, to += 3) {
-      *to = static_cast<float>(boost::endian::endian_load<Number, sizeof(Number), kOrder>(
-          from + column * cloud.point_step));
+    for (std::size_t column = 0; column < cloud.width; ++column, ++vertex) {
+      const Number value = boost::endian::endian_load<Number, sizeof(Number), kOrder>(
+          from + column * cloud.point_step);
+      vertices[3 * vertex + axis] = coordinate(value, vertex, axis);
     }
   }
 }
@@ -109,17 +126,26 @@ Eigen::Isometry3d pose_of(const Marker& marker) {
     throw MessageError("wrong orientation", "pose.orientation has length ", length,
                        "; must be 1, or 0 for none");
   }
-  return Eigen::Translation3d(to_eigen(marker.pose.position)) * rotation.normalized();
+  const Eigen::Vector3d position = to_eigen(marker.pose.position);
+  if (!position.allFinite()) {
+    throw MessageError("not finite", "pose.position is ", position.transpose(),
+                       "; must be finite, in metres");
+  }
+  return Eigen::Translation3d(position) * rotation.normalized();
 }
 
-/// The points as x y z x y z ... [m], each moved by a transform.
+/// The points as x y z x y z ... [m], each moved by a transform. Throws MessageError.
 std::vector<float> placed(const std::vector<geometry_msgs::Point>& points,
                           const Eigen::Affine3d& T_frame_points) {
   std::vector<float> vertices;
   vertices.reserve(3 * points.size());
-  for (const geometry_msgs::Point& point : points) {
-    const Eigen::Vector3f vertex = (T_frame_points * to_eigen(point)).cast<float>();
-    vertices.insert(vertices.end(), vertex.begin(), vertex.end());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3d point = to_eigen(points[i]);
+    for (int axis = 0; axis < 3; ++axis) {  // The transform would make all three NaN.
+      if (!std::isfinite(point[axis])) refuse(point[axis], i, axis);
+    }
+    const Eigen::Vector3d vertex = T_frame_points * point;
+    for (int axis = 0; axis < 3; ++axis) vertices.push_back(coordinate(vertex[axis], i, axis));
   }
   return vertices;
 }
@@ -144,19 +170,14 @@ std::vector<float> read_points(const PointCloud2& cloud) {
         cloud.is_bigendian != 0
             ? (is_double ? copy<double, order::big> : copy<float, order::big>)
             : (is_double ? copy<double, order::little> : copy<float, order::little>);
-    copy_axis(cloud, fields[axis].offset, &vertices[axis]);
+    copy_axis(cloud, fields[axis].offset, axis, vertices);
   }
   return vertices;
 }
 
 ReceivedSurface convert(const shape_msgs::Mesh& mesh) {
   ReceivedSurface surface;
-  surface.vertices.reserve(3 * mesh.vertices.size());
-  for (const geometry_msgs::Point& vertex : mesh.vertices) {
-    for (const double value : {vertex.x, vertex.y, vertex.z}) {
-      surface.vertices.push_back(static_cast<float>(value));
-    }
-  }
+  surface.vertices = placed(mesh.vertices, Eigen::Affine3d::Identity());
   surface.triangles.reserve(3 * mesh.triangles.size());
   for (const shape_msgs::MeshTriangle& triangle : mesh.triangles) {
     surface.triangles.insert(surface.triangles.end(), triangle.vertex_indices.begin(),

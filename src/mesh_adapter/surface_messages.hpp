@@ -43,14 +43,14 @@ class MessageError : public std::runtime_error {
 
 /// The fields x, y and z of all points, row by row, as x y z x y z ... The fields may lie anywhere
 /// in a point and in any order. They may be float32 or float64, in little or big endian. Other
-/// fields and padding are skipped. The numbers are rounded to 32-bit floats and need not be finite.
-/// Throws MessageError.
+/// fields and padding are skipped. The numbers are rounded to 32-bit floats. Throws MessageError.
 std::vector<float> read_points(const sensor_msgs::PointCloud2& cloud);
 
 // Conversions from messages with a mesh to surfaces. Vertices keep their order and are rounded to
-// 32-bit floats.
+// 32-bit floats. What is not finite as such a float is refused here, because only here it is known
+// what the message had.
 
-/// The surface has no frame and no stamp, because the message has none.
+/// The surface has no frame and no stamp, because the message has none. Throws MessageError.
 ReceivedSurface convert(const shape_msgs::Mesh& mesh);
 
 /// A polygon of n corners is cut into a fan around its first corner and becomes n - 2 faces. If the

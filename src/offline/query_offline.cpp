@@ -1,9 +1,6 @@
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <csignal>
-#include <cstdio>
-#include <cstring>
 #include <exception>
 #include <iostream>
 #include <optional>
@@ -145,13 +142,6 @@ std::optional<Options> parse_options(const std::vector<std::string>& arguments) 
   }
   line.require("motions", options.motions);
   return options;
-}
-
-/// Writes to stdout at once, so that a reader who waits for an answer gets it.
-void print(const std::string& text) {
-  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
-  if (written && std::fflush(stdout) == 0) return;
-  throw std::runtime_error(std::string("stdout cannot be written: ") + std::strerror(errno));
 }
 
 /// How many motions a thread answers before it takes the next ones. Small blocks keep all threads

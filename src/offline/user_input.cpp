@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <boost/program_options.hpp>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <iostream>
 
 #include "geometry/concatenate.hpp"
@@ -79,6 +82,16 @@ std::optional<long long> parse_integer(std::string_view text) {
   return integer;
 }
 
+void print(const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  flush_stdout();
+}
+
+void flush_stdout() {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+  throw std::runtime_error(std::string("stdout cannot be written: ") + std::strerror(errno));
+}
+
 CommandLine::CommandLine(std::string program, const char* usage)
     : program_(std::move(program)),
       usage_(usage),
@@ -130,7 +143,7 @@ bool CommandLine::read(const std::vector<std::string>& words,
                        std::vector<std::string>* files) const {
   const auto asks_for_help = [](const auto& word) { return word == "--help" || word == "-h"; };
   if (std::any_of(words.begin(), words.end(), asks_for_help)) {
-    std::cout << usage_ << std::flush;
+    print(usage_);
     return false;
   }
 

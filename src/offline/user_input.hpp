@@ -89,6 +89,12 @@ class CommandLine {
   std::shared_ptr<boost::program_options::options_description> legal_;
 };
 
+/// Writes to stdout at once, so that a reader who waits for an answer gets it. Throws
+/// std::runtime_error if stdout cannot be written, for example because the disk is full.
+void print(const std::string& text);
+/// Throws the same if anything that was written to stdout so far is lost.
+void flush_stdout();
+
 /// The exit code of a program that does this work: 0, or 2 after an InputError, or 1 after any
 /// other exception. Prints what the exception says in one line on stderr.
 int exit_code(const std::string& program, const std::function<void()>& work);

@@ -1,29 +1,34 @@
 #include <ros/names.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <csignal>
-#include <exception>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <iostream>
-#include <map>
-#include <memory>
 #include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
-#include <tuple>
+#include <system_error>
 #include <vector>
 
+#include "bags.hpp"
 #include "geometry/concatenate.hpp"
 #include "offline/user_input.hpp"
 #include "organ_collision/ros/names.hpp"
 #include "replay.hpp"
-#include "ros/messages/failure_log.hpp"
 #include "ros/messages/text.hpp"
 #include "ros/motion/tool_poses.hpp"
+#include "ros/tools/robot_reader_client.hpp"
 #include "yaml_parameters.hpp"
 
 namespace organ_collision {
@@ -48,8 +53,8 @@ of a bag write the same answers. Needs no ROS master.
   --with-input       OUT.bag also gets all messages of IN.bag, except those on NAME/contacts
   --help             this text
 
-Exit status: 0 done; 2 bad input, with one line on stderr and no OUT.bag; 1 other failures. Progress
-is shown on stderr.
+Exit status: 0 done; 2 bad input, 1 other failures. Both have one line on stderr, and no new OUT.bag
+unless only stdout cannot be written. Progress is shown on stderr.
 )";
 
 /// The command line.
@@ -84,125 +89,6 @@ std::optional<ReplayOptions> parse_options(const std::vector<std::string>& argum
   return options;
 }
 
-std::string incomplete(const std::string& file) { return file + ".incomplete"; }
-
-/// The messages of a bag in the order in which they were recorded. rosbag::View alone orders them
-/// by time: messages of the same simulated time would lose their order, and a clock that jumped
-/// back would mix the times before and after the jump.
-class RecordedMessages : private rosbag::View {
- public:
-  /// The messages of the connections for which `is_wanted` returns true. `bag` must outlive this.
-  RecordedMessages(const rosbag::Bag& bag,
-                   const std::function<bool(const rosbag::ConnectionInfo&)>& is_wanted)
-      : View(bag, [&](const rosbag::ConnectionInfo* info) { return is_wanted(*info); }), bag_(bag) {
-    for (const rosbag::MessageRange* range : ranges_) {
-      for (auto entry = range->begin; entry != range->end; ++entry) {
-        places_.push_back({*entry, range->connection_info});
-      }
-    }
-    // A bag is written from its beginning to its end, so positions in the file tell the order.
-    std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
-      return std::tie(a.entry.chunk_pos, a.entry.offset) <
-             std::tie(b.entry.chunk_pos, b.entry.offset);
-    });
-  }
-
-  std::size_t size() const { return places_.size(); }
-  /// Calls `take` for each message. Throws InputError if the bag cannot be read.
-  void for_each(const std::function<void(const rosbag::MessageInstance&)>& take) try {
-    for (const Place& place : places_) {
-      const std::unique_ptr<rosbag::MessageInstance> message(
-          newMessageInstance(place.connection, place.entry, bag_));
-      take(*message);
-    }
-  } catch (const rosbag::BagException& error) {
-    throw InputError(bag_.getFileName() +
-                     ": cannot be read to its end: " + plain_text(error.what(), 200));
-  } catch (const ros::serialization::StreamOverrunException&) {
-    throw InputError(bag_.getFileName() +
-                     ": a message is damaged: it is shorter than its contents say");
-  }
-
- private:
-  struct Place {
-    rosbag::IndexEntry entry;
-    const rosbag::ConnectionInfo* connection;
-  };
-
-  const rosbag::Bag& bag_;
-  std::vector<Place> places_;
-};
-
-/// The bag that gets the answers. Until it is complete, its file is NAME.incomplete. A bag that is
-/// never completed is removed. The functions throw std::runtime_error if the file cannot be
-/// written.
-class AnswerBag {
- public:
-  /// Throws InputError if the file cannot be written.
-  AnswerBag(const std::string& file, std::string topic)
-      : file_(file), topic_(std::move(topic)), incomplete_(incomplete(file)) {
-    try {
-      bag_.open(incomplete_, rosbag::bagmode::Write);
-    } catch (const rosbag::BagException& error) {
-      throw InputError(file + ": cannot be written: " + error.what());
-    }
-  }
-  ~AnswerBag() {
-    if (incomplete_.empty()) return;
-    try {
-      bag_.close();
-    } catch (const std::exception&) {  // For example, the disk is full. The file is removed anyway.
-    }
-    std::error_code ignored;
-    std::filesystem::remove(incomplete_, ignored);
-  }
-  AnswerBag(const AnswerBag&) = delete;
-  AnswerBag& operator=(const AnswerBag&) = delete;
-
-  void add(const ContactArray& answer, ros::Time time) {
-    ++counts_[answer.status];
-    write(topic_, std::max(time, ros::TIME_MIN), answer);  // rosbag refuses time zero.
-  }
-
-  void copy(const rosbag::MessageInstance& message) {
-    write(message.getTopic(), message.getTime(), message, message.getConnectionHeader());
-  }
-
-  void complete() {
-    bag_.close();
-    std::filesystem::rename(incomplete_, file_);
-    incomplete_.clear();
-  }
-
-  /// For example "1840 answers on /organ_collision/contacts: 1836 ok, 4 no transform".
-  std::string summary() const {
-    std::size_t all = 0;
-    std::string by_status;
-    for (const auto& [status, count] : counts_) {
-      all += count;
-      by_status +=
-          (by_status.empty() ? ": " : ", ") + std::to_string(count) + " " + reason_of(status);
-    }
-    return std::to_string(all) + " answers on " + topic_ + by_status;
-  }
-
- private:
-  template <typename... Message>
-  void write(const Message&... message) {
-    try {
-      bag_.write(message...);
-    } catch (const rosbag::BagException& error) {
-      throw std::runtime_error(file_ + ": cannot be written: " + error.what());
-    }
-  }
-
-  std::string file_;
-  std::string topic_;
-  std::string incomplete_;
-  rosbag::Bag bag_;
-  std::map<std::uint8_t, std::size_t> counts_;  ///< the number of answers, by status
-};
-
 /// Throws InputError if the input is no regular file, or if the output would replace the input, or
 /// something that is no regular file.
 void check_files(const ReplayOptions& options) {
@@ -222,18 +108,6 @@ void check_files(const ReplayOptions& options) {
     if (std::filesystem::equivalent(options.in, written, ignored)) {
       throw InputError("replay: " + written + " is also the input; name another OUT.bag");
     }
-  }
-}
-
-void open(rosbag::Bag& bag, const std::string& file) {
-  try {
-    bag.open(file, rosbag::bagmode::Read);
-  } catch (const rosbag::BagUnindexedException&) {
-    throw InputError(file +
-                     ": has no index, as after an interrupted recording; repair it with "
-                     "`rosbag reindex`");
-  } catch (const std::exception& error) {
-    throw InputError(file + ": is no bag that can be read: " + plain_text(error.what(), 200));
   }
 }
 
@@ -307,8 +181,19 @@ void check_frames(const std::vector<Tool>& tools, const std::string& file, const
   }
 }
 
+/// Says why there are few answers if tools moved on TF without being asked about.
+void explain_few_answers(const ReplayOptions& options, std::size_t answers,
+                         std::size_t transforms) {
+  if (transforms <= answers) return;
+  std::cerr
+      << "replay: " << options.parameters
+      << " has no rate above 0: only shapes and messages of pose topics are answered, not the "
+      << transforms << " messages on /tf. For more answers, add a line such as rate: 100"
+      << std::endl;
+}
+
 void replay(const ReplayOptions& options) {
-  check_files(options);
+  const ScopedBagLog log;
   const YamlParameters parameters(options.parameters, options.node);
   const NodeParameters node = parameters.node_parameters();
   for (const std::string& sentence : node.misspelt) std::cerr << "replay: " << sentence << '\n';
@@ -337,17 +222,60 @@ void replay(const ReplayOptions& options) {
     return is_copied || replay.topics().count(connection.topic) > 0;
   });
   Progress progress("replay", "messages", messages.size());
-  std::size_t done = 0;
+  std::size_t done = 0, transforms = 0;
   messages.for_each([&](const rosbag::MessageInstance& message) {
     if (interrupted) throw std::runtime_error("interrupted");
     if (options.with_input) answers.copy(message);
     if (replay.topics().count(message.getTopic()) > 0) replay.take(message);
+    transforms += message.getTopic() == "/tf";
     progress.report(++done);
   });
   replay.finish();
   check_frames(tools, options.in, replay);
   answers.complete();
-  std::cout << answers.summary() << std::endl;
+  for (const std::string& line : log.lines()) {
+    std::cerr << "replay: " << options.in << ": " << line << std::endl;
+  }
+  print(answers.summary() + "\n");
+  if (!(node.rate_hz > 0.0)) explain_few_answers(options, answers.count(), transforms);
+}
+
+std::atomic<pid_t> worker{0};  ///< the process that replays
+
+/// Replays in a child process, because the library that reads bags crashes on some damaged ones.
+/// Only the parent returns: the exit code. Signals of the user reach the child, which then ends in
+/// order. Throws std::runtime_error if the child did not.
+int replay_in_child(const ReplayOptions& options, const std::function<int()>& work) {
+  sigset_t of_user, former;
+  sigemptyset(&of_user);
+  for (const int signal : {SIGINT, SIGTERM}) sigaddset(&of_user, signal);
+  sigprocmask(SIG_BLOCK, &of_user, &former);  // Until the parent knows whom to pass them on to.
+  worker = fork();
+  if (worker < 0) throw std::system_error(errno, std::generic_category(), "fork");
+  if (worker == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGTERM);  // If somebody kills the parent, the child does not go on.
+    sigprocmask(SIG_SETMASK, &former, nullptr);
+    const int code = work();
+    std::fflush(stdout);
+    std::_Exit(code);  // Destructors of libraries could throw, and their leaks do not matter.
+  }
+  for (const int signal : {SIGINT, SIGTERM}) {
+    std::signal(signal, [](int number) { kill(worker, number); });
+  }
+  sigprocmask(SIG_SETMASK, &former, nullptr);
+  int status = 0;
+  while (waitpid(worker, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (!WIFSIGNALED(status)) return WEXITSTATUS(status);
+  std::error_code ignored;
+  std::filesystem::remove(incomplete(options.out), ignored);
+  for (const int signal : {SIGINT, SIGTERM}) {
+    if (WTERMSIG(status) != signal) continue;
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
+  throw std::runtime_error(options.in + ": its replay " + failure_of(status) + "; the bag, or " +
+                           options.parameters + ", may be damaged, or memory ran out");
 }
 
 }  // namespace
@@ -355,12 +283,22 @@ void replay(const ReplayOptions& options) {
 
 int main(int argc, char** argv) {
   using namespace organ_collision;
-  return exit_code("replay", [&] {
+  // If SIGPIPE is ignored, a closed pipe on stdout is reported like any other failed write.
+  std::signal(SIGPIPE, SIG_IGN);
+  int code = 0;
+  const int refused = exit_code("replay", [&] {
     const std::optional<ReplayOptions> options = parse_options({argv + 1, argv + argc});
-    try {
-      if (options) replay(*options);
-    } catch (const ParameterError& error) {
-      throw InputError(std::string("replay: ") + error.what());
-    }
+    if (!options) return;
+    check_files(*options);
+    code = replay_in_child(*options, [&] {
+      return exit_code("replay", [&] {
+        try {
+          replay(*options);
+        } catch (const ParameterError& error) {
+          throw InputError(std::string("replay: ") + error.what());
+        }
+      });
+    });
   });
+  return refused != 0 ? refused : code;
 }

@@ -47,16 +47,6 @@ void limit(Resource resource, rlim_t value) {
   throw std::system_error(errno, std::generic_category(), "setrlimit");
 }
 
-/// Makes SIGPROF end this process after so much processor time; zero: never. Throws
-/// std::system_error.
-void limit_time(std::chrono::milliseconds time) {
-  itimerval timer{};
-  timer.it_value.tv_sec = time.count() / 1000;
-  timer.it_value.tv_usec = time.count() % 1000 * 1000;
-  if (setitimer(ITIMER_PROF, &timer, nullptr) == 0) return;
-  throw std::system_error(errno, std::generic_category(), "setitimer");
-}
-
 const std::string kPackage = "package://";
 const std::string kFile = "file://";
 
@@ -269,6 +259,21 @@ void limit_process() {
   prctl(PR_SET_DUMPABLE, 0);
 }
 
+ScopedTimeLimit::ScopedTimeLimit(std::size_t bytes) {
+  const std::chrono::milliseconds more(bytes / reader_limits::kMeshBytesPerMillisecond);
+  const std::chrono::milliseconds time = reader_limits::kMeshTime + more;
+  itimerval timer{};
+  timer.it_value.tv_sec = time.count() / 1000;
+  timer.it_value.tv_usec = time.count() % 1000 * 1000;
+  if (setitimer(ITIMER_PROF, &timer, nullptr) == 0) return;
+  throw std::system_error(errno, std::generic_category(), "setitimer");
+}
+
+ScopedTimeLimit::~ScopedTimeLimit() {
+  const itimerval never{};
+  setitimer(ITIMER_PROF, &never, nullptr);
+}
+
 std::string read_resource(const std::string& name) {
   if (boost::starts_with(name, "/")) return read_file(name);
   if (boost::starts_with(name, kPackage)) return read_file(path_in_package(name));
@@ -290,16 +295,12 @@ RobotShape read_mesh_file(const std::string& file, const Vector3d& scale,
       throw ToolError("it is only a pointer of Git LFS; fetch the file itself by 'git lfs pull'");
     }
     check_ply_header(content);
-    // With some broken files, assimp would not end.
-    const std::chrono::milliseconds more(content.size() / reader_limits::kMeshBytesPerMillisecond);
-    limit_time(reader_limits::kMeshTime + more);
+    const ScopedTimeLimit time_limit(content.size());
     RobotShape shape = parse(file, content, T_link_mesh * Eigen::Scaling(scale));
-    limit_time({});
     shape.kind = RobotShape::MESH;
     shape.file = file;
     return shape;
   } catch (const std::exception& error) {
-    limit_time({});
     throw ToolError("mesh '" + file + "': " + error.what());
   }
 }

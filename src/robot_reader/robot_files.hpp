@@ -3,12 +3,24 @@
 #include <organ_collision/RobotShape.h>
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <string>
 
 namespace organ_collision {
 
 /// Applies reader_limits to this process, and stops it from dumping core. Throws std::system_error.
 void limit_process();
+
+/// While an object of this class lives, SIGPROF ends this process if it works on a file of so many
+/// bytes for much longer than its parsers need: some broken files keep them busy for minutes, or
+/// for ever. Throws std::system_error.
+class ScopedTimeLimit {
+ public:
+  explicit ScopedTimeLimit(std::size_t bytes);
+  ~ScopedTimeLimit();
+  ScopedTimeLimit(const ScopedTimeLimit&) = delete;
+  ScopedTimeLimit& operator=(const ScopedTimeLimit&) = delete;
+};
 
 /// The content of a regular file on this machine. `name`: an absolute path, or a URL that begins
 /// with package:// or file://, as in URDF. Throws ToolError if there is no such file, and for

@@ -135,6 +135,7 @@ std::vector<RobotLink> read_links(const std::string& urdf, const std::vector<std
   urdf::ModelInterfaceSharedPtr model;
   {
     const ScopedErrorCollector collector(errors);
+    const ScopedTimeLimit time_limit(urdf.size());
     model = urdf::parseURDF(urdf);
   }
   if (!model) throw ToolError("no legal URDF: " + listed(errors));

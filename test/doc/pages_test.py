@@ -159,6 +159,20 @@ class PagesTest(unittest.TestCase):
                 named += [(page, path.replace(choice.group(), ending)) for ending in choice.group(1).split(',')]
         self.assertEqual([(page, path) for page, path in named if not found(path)], [])
 
+    def test_each_program_that_a_page_names_is_installed(self):
+        """Except those that stand with their path in the devel space, on pages that users do not need."""
+        build_files = {path: read(path) for path in found('*', 'CMakeLists.txt') + found('*', '*', 'CMakeLists.txt')
+                       + ['cmake/Install.cmake']}
+        installed = {name for text in build_files.values() for name in re.findall(r'organ_collision_program\(\s*(\w+)', text)
+                     } | set(re.findall(r'\w+\.py', build_files['cmake/Install.cmake']))
+        built = {name for text in build_files.values() for name in re.findall(r'add_executable\(\s*(\w+)', text)}
+        self.assertGreater(min(len(installed), len(built)), 5)
+        called = {(page, name) for page, text in PAGES.items()
+                  for name in re.findall(r'\brosrun organ_collision (\w[\w.]*\w)', text)}
+        self.assertEqual({(page, name) for page, name in called if name not in installed}, set())
+        self.assertEqual({(page, name) for page in PAGES if re.fullmatch(r'README\.md|doc/\w+\.md', page)
+                          for name in (built - installed) & {span.split()[0] for span in spans(PAGES[page])}}, set())
+
     def test_the_changelog_begins_with_this_version_or_with_what_is_not_released_yet(self):
         version = re.search('<version>(.*)</version>', read('package.xml')).group(1)
         newest = re.search(r'^(.*)\n-+$', read('CHANGELOG.rst'), re.M).group(1)

@@ -158,6 +158,7 @@ def mesh_adapter():
             'marker': b'\0' + record(2, marker) + record(2, deletion),
             'doubles': b'\0' + record(1, polygons) + record(3, big),
             'no_frame': b'\0' + record(0, shape),
+            'too_large': b'\1' + record(0, shape) + record(0, Mesh(shape.triangles, [Point(1e39, 0, 0)] * 4)),
             'huge_width': b'\0' + record(1, polygons) + record(3, PointCloud2(
                 header(), 0xffffffff, 0xffffffff, fields, False, 12, 48, bytes(48), True))}
 

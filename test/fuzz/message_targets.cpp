@@ -5,7 +5,9 @@
 #include <shape_msgs/Mesh.h>
 #include <visualization_msgs/Marker.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "contact_adapter/contact_answer.hpp"
 #include "contact_adapter/force_law.hpp"
@@ -95,9 +97,18 @@ void take(FuzzInput& input, OrganSource& source) {
 
 void run_mesh_adapter(const std::uint8_t* data, std::size_t size) {
   FuzzInput input(data, size);
-  const OrganSource::Callbacks callbacks{
-      [](const OrganMeshPtr& mesh) { demand(mesh->organ == "liver", "a mesh names its organ"); },
-      [](const OrganVerticesPtr& mesh) { demand(!mesh->vertices.empty(), "there are vertices"); }};
+  const auto demand_finite = [](const std::vector<float>& vertices) {
+    demand(std::all_of(vertices.begin(), vertices.end(), [](float x) { return std::isfinite(x); }),
+           "coordinates are finite");
+  };
+  const OrganSource::Callbacks callbacks{[&](const OrganMeshPtr& mesh) {
+                                           demand(mesh->organ == "liver", "a mesh names its organ");
+                                           demand_finite(mesh->vertices);
+                                         },
+                                         [&](const OrganVerticesPtr& mesh) {
+                                           demand(!mesh->vertices.empty(), "there are vertices");
+                                           demand_finite(mesh->vertices);
+                                         }};
   OrganSource source({"liver", "mesh", input.byte() % 2 == 0 ? "" : "liver_frame", "cloud"}, 7,
                      callbacks);
   while (!input.empty()) {

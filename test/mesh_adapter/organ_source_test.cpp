@@ -174,7 +174,7 @@ TEST_F(OrganSourceTest, WhatTheCollisionNodeRefusesIsSentButNotRemembered) {
   send(grid_);
   const ros::Time good = stamp_;
   GridSurface broken = moved_;
-  broken.vertices[10] = std::nanf("");
+  broken.vertices[10] = 1e30f;
   send_vertices(broken.vertices);  // It is sent all the same.
   EXPECT_EQ(source_.mesh()->vertices, grid_.vertices);
   take_vertices(cloud(moved_.vertices, "table"));

@@ -55,8 +55,7 @@ TEST(PointCloudReader, ReadsEveryLayout) {
       {{{"x", kDouble}, {"y", kDouble}, {"z", kDouble}}},
       {{{"time", kDouble}, {"y", kDouble}, {"x"}, {"z", kDouble}, {"ring", PointField::INT8}}},
   };
-  std::vector<double> points = random_points(60, 7);
-  points[4] = kInfinity;  // Numbers need not be finite.
+  const std::vector<double> points = random_points(60, 7);
   for (CloudLayout layout : layouts) {
     for (const bool big_endian : {false, true}) {
       for (const std::uint32_t width : {0, 1, 12, 60}) {
@@ -144,10 +143,58 @@ TEST(PointCloudReader, RefusesSizesWhoseBytesOverflow) {
   }
 }
 
+/// The refusals of all messages that can have these points, as multiples of three.
+std::vector<std::string> refusals_of(const std::vector<double>& points) {
+  constexpr std::uint8_t kDouble = PointField::FLOAT64;
+  std::vector<std::string> refusals;
+  pcl_msgs::PolygonMesh polygons;
+  for (const bool big_endian : {false, true}) {
+    for (const std::uint8_t type : {PointField::FLOAT32 + 0, kDouble + 0}) {
+      const CloudLayout layout{{{"z", type}, {"", type}, {"x", type}, {"y", type}}, big_endian, 3};
+      polygons.cloud = cloud_of(points, layout);
+      refusals.push_back(refusal([&] { read_points(polygons.cloud); }));
+      refusals.push_back(refusal([&] { convert(polygons); }));
+    }
+  }
+  shape_msgs::Mesh mesh;
+  for (std::size_t i = 0; i < points.size(); i += 3) {
+    mesh.vertices.push_back(tf2::toMsg(Eigen::Vector3d(&points[i])));
+  }
+  refusals.push_back(refusal([&] { convert(mesh); }));
+  Marker marker;
+  marker.type = Marker::TRIANGLE_LIST;
+  marker.scale = to_vector({1.0, 1.0, 1.0});
+  marker.points = mesh.vertices;
+  refusals.push_back(refusal([&] { MarkerReader().read(marker); }));
+  return refusals;
+}
+
+TEST(MeshConversions, WhatIsNotFiniteAsAFloatIsRefusedWithItsPlace) {
+  const std::vector<double> good = random_points(6, 12);
+  for (const std::string& text : refusals_of(good)) EXPECT_EQ(text, "accepted");
+  for (const double value : {kNan, kInfinity, -kInfinity, 1e39, -3.5e38}) {
+    for (std::size_t place = 0; place < good.size(); ++place) {
+      std::vector<double> points = good;
+      points[place] = value;
+      for (const std::string& text : refusals_of(points)) {
+        expect_words(text, {"not finite: ",
+                            std::string(1, "xyz"[place % 3]) + " of vertex " +
+                                std::to_string(place / 3) + " is ",
+                            "must be finite 32-bit floats"});
+      }
+    }
+  }
+  for (const double value : {3.4e38, -3.4e38, 1e-46}) {
+    std::vector<double> points = good;
+    points[7] = value;
+    for (const std::string& text : refusals_of(points)) EXPECT_EQ(text, "accepted") << value;
+  }
+}
+
 TEST(MeshConversions, TakesAShapeMeshAsItIs) {
   shape_msgs::Mesh mesh;
   for (const Eigen::Vector3d& at :
-       {Eigen::Vector3d(0.1, -0.2, 0.3), Eigen::Vector3d(kInfinity, 5.5, 1e30)}) {
+       {Eigen::Vector3d(0.1, -0.2, 0.3), Eigen::Vector3d(7.5, 5.5, 1e30)}) {
     mesh.vertices.push_back(tf2::toMsg(at));
   }
   mesh.triangles.resize(2);
@@ -156,7 +203,7 @@ TEST(MeshConversions, TakesAShapeMeshAsItIs) {
   const ReceivedSurface surface = convert(mesh);
   EXPECT_EQ(surface.frame, "");
   EXPECT_TRUE(surface.stamp.isZero());
-  EXPECT_EQ(surface.vertices, (Floats{0.1f, -0.2f, 0.3f, INFINITY, 5.5f, 1e30f}));
+  EXPECT_EQ(surface.vertices, (Floats{0.1f, -0.2f, 0.3f, 7.5f, 5.5f, 1e30f}));
   EXPECT_EQ(surface.triangles, (Indices{2, 0, 1, 1, 1, 4000}));
   EXPECT_TRUE(convert(shape_msgs::Mesh()).empty());
   EXPECT_TRUE(convert(pcl_msgs::PolygonMesh()).empty());
@@ -248,6 +295,8 @@ TEST_F(MarkerReaderTest, RefusesWhatIsNoSurface) {
       {[](auto& m) { m.pose.orientation.x = 2.0, m.pose.orientation.w = 0.0; },
        {"wrong orientation: ", "length 2", "must be 1"}},
       {[](auto& m) { m.pose.orientation.x = kNan; }, {"wrong orientation: ", "nan"}},
+      {[](auto& m) { m.pose.position.y = kNan; }, {"not finite: ", "pose.position is ", "nan"}},
+      {[](auto& m) { m.scale.y = 1e41; }, {"not finite: ", "y of vertex 0 is ", "e+3"}},
       {[](auto& m) { m.scale.y = 0.0; }, {"wrong scale: ", "1 0 1", "finite and more than 0"}},
       {[](auto& m) { m.scale.y = -1.0; }, {"wrong scale: "}},
       {[](auto& m) { m.scale.y = kNan; }, {"wrong scale: "}},

@@ -28,8 +28,8 @@ class Recording:
     """A bag that is being recorded. Times are in seconds: `at` is when the recorder got a message,
     and `time` is the message's stamp. `at` is `time` if it is not given."""
 
-    def __init__(self, path, node='/organ_collision'):
-        self.bag = rosbag.Bag(path, 'w')
+    def __init__(self, path, node='/organ_collision', compression='none'):
+        self.bag = rosbag.Bag(path, 'w', compression)
         self.node = node
         self.publishers, self.connections = {}, {}
 

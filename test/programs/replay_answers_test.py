@@ -131,6 +131,22 @@ class ReplayAnswersTest(ReplayCase):
         self.assertEqual(len(answers), 1 + 11)  # The shape, and a tick each 10 ms from 1.0 s on.
         self.assertTrue(all(answer.status == OK for _, answer in answers))
 
+    def test_few_answers_are_explained(self):
+        """A tool moves on TF beside an organ at rest, and the yaml file has no rate, which was an argument of the launch
+        file. Poses on a topic are answered."""
+        with self.record() as bag:
+            bag.resting(1.0)
+            bag.tool(1.0, at_height(0.05))
+            bag.mesh(1.0, SHEET)
+            for i in range(1, 11):
+                bag.tool(1.0 + 0.01 * i, at_height(0.05 - 0.001 * i))
+        for rate, answers, lines in ('', 1, 1), ('rate: 0\n', 1, 1), ('rate: 100\n', 11, 0):
+            done = self.replay(rate + TOOLS)
+            self.assertIn('%d answers on /organ_collision/contacts: %d ok' % (answers, answers), done.stdout)
+            self.assertEqual(len(done.stderr.splitlines()), lines, done.stderr)
+            for word in ('parameters.yaml has no rate above 0', 'the 11 messages on /tf', 'rate: 100') * lines:
+                self.assertIn(word, done.stderr)
+
 
 class SimulatedTimeTest(ReplayCase):
     """A bag with /clock is replayed in the time of /clock."""

@@ -8,13 +8,15 @@ import unittest
 import numpy as np
 import rospy
 
-from organ_collision import link_motions, organ_mesh, organ_vertices, shaft_motion, shaft_motions
+import organ_collision
+from organ_collision import link_motions, Organ, organ_mesh, organ_vertices, shaft_motion, shaft_motions
 from organ_collision.arrays import face_array, points_array, poses_array, vertex_array
 from organ_collision.msg import OrganMesh, OrganVertices
 
 RANDOM = np.random.default_rng(13)
 POINTS = [[0.1, 0.2, 0.3], [1.5, -2.0, 4.0], [0.7, 0.1, -0.9], [3.0, 2.0, 1.0]]
 FACES = [[0, 1, 2], [3, 2, 1]]
+NONE = np.empty((0, 3), int)
 
 
 def serialized(message):
@@ -96,6 +98,10 @@ class ArraysTest(unittest.TestCase):
                 ('4 poses of links and 3 previous', link_motions, poses(4, 2)[0], numbers),
                 ('5 trocars, 4 tips', shaft_motions, np.zeros((5, 3)), POINTS, 0.0),
                 ('there are 4 vertices', organ_mesh, 'liver', POINTS, [[0, 1, 4]]),
+                ('faces is empty, but there are 4 vertices', organ_mesh, 'liver', POINTS, NONE),
+                ('faces is empty, but there are 4 vertices', Organ, 'liver', POINTS, NONE),
+                (r'faces has the shape \(0,\)', Organ, 'liver', POINTS, []),
+                ('liver has no faces; an organ has at least one', Organ, 'liver', NONE, NONE),
                 ('topology is -1; must be a whole number from 0', organ_mesh, 'liver', POINTS, FACES, None, -1),
                 ('topology is 1.0; must be a whole number', organ_vertices, 'liver', POINTS, None, 1.0),
                 ('stamp is 1.5; must be a rospy.Time', organ_mesh, 'liver', POINTS, FACES, None, 0, 1.5),
@@ -113,6 +119,15 @@ class ArraysTest(unittest.TestCase):
         np.testing.assert_allclose(made[..., :3], numbers[..., :3])
         np.testing.assert_allclose(made[..., 3:] * sign, numbers[..., 3:], atol=1e-14)
         np.testing.assert_array_equal(poses_array(numbers.tolist(), 'links'), numbers)
+
+
+class ModuleTest(unittest.TestCase):
+    def test_a_star_imports_every_name(self):
+        names = {}
+        exec('from organ_collision import *', names)
+        self.assertEqual(set(names) - {'__builtins__'}, set(organ_collision._MODULES))
+        self.assertEqual([name for name in organ_collision._MODULES
+                          if names[name] is not getattr(organ_collision, name)], [])
 
 
 class MessagesTest(unittest.TestCase):

@@ -1,7 +1,9 @@
 #!/usr/bin/python3
 """Tools and parameters change while the node makes steps. What did not change goes on as before."""
 
+import signal
 import sys
+import tempfile
 import threading
 
 from dynamic_reconfigure.client import Client
@@ -79,6 +81,28 @@ class LiveChangesTest(KeepsContract, ToolCase):
         self.assertEqual(self.node.query(self.organ, tool='saw').status, ContactArray.UNKNOWN_TOOL)
         self.assertEqual(self.reloaded(), "removed: 'kept'")
         self.node.diagnostics.wait_for_summary('tools', '~tools is empty')
+
+    def test_steps_go_on_while_a_robot_is_read_that_takes_long(self):
+        """The parser of URDF needs a time that grows with the square of the depth. It may take 1.3 s of the
+        processor, and 30 s in all if that is busy."""
+        self.reloaded(shaft('kept'))
+        self.step(SHEET, {'kept': at_height(0.05)})
+        answers, steps = [], 0
+        with tempfile.NamedTemporaryFile('w', suffix='.urdf') as urdf:
+            urdf.write('<robot name="slow"><link name="tip"/>' + 300000 * '<a>' + 300000 * '</a>' + '</robot>')
+            urdf.flush()
+            slow = dict(name='slow', urdf=urdf.name, links=['tip'])
+            thread = threading.Thread(target=lambda: answers.append(self.reload(shaft('kept'), slow)))
+            thread.start()
+            while thread.is_alive():
+                self.step(SHEET, {'kept': at_height(0.05 if steps % 2 else -0.05)}, vertices=True)
+                steps += 1
+            thread.join()
+        self.assertFalse(answers[0].success)
+        self.assertRegex(answers[0].message, 'robot_reader (was ended by signal %d|took more than 30 s)' % signal.SIGPROF)
+        self.assertGreater(steps, 2)
+        self.assert_no_gap('kept')
+        self.assertEqual(self.reloaded(), "removed: 'kept'")
 
     def test_what_is_illegal_changes_nothing(self):
         """Subscriptions are the last thing that can fail, and must not leave half of the new list."""

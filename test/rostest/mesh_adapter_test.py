@@ -2,6 +2,7 @@
 """Meshes in each message type that organ_mesh_adapter accepts: shapes and triangles change, and organs are removed.
 What it refuses. Adapters and collision nodes that start again."""
 
+import math
 import sys
 
 from organ_collision.msg import ContactArray, OrganMesh, OrganVertices
@@ -99,6 +100,8 @@ class MeshAdapterTest(ContactCase, NodeStarter):
         before = self.wait_for_contacts('shape', SHEET)
         for topic, message, *words in (
             ('/sim/shape_points', cloud(SHEET.vertices[1:]), '24 vertices', "'shape'", '25'),
+            ('/sim/shape', shape_mesh(SHEET.moved(lambda v: (v[0], v[1], math.nan))), 'z of vertex 0 is nan', 'finite'),
+            ('/sim/shape_points', cloud(LOWER.moved(lambda v: (math.inf, 0, 0)).vertices), 'x of vertex 0 is inf', 'finite'),
             ('/sim/odd', String('solid liver'), 'std_msgs/String', 'shape_msgs/Mesh', 'pcl_msgs/PolygonMesh'),
         ):
             self.publish(topic, message)

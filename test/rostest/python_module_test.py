@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 import unittest
 
 import numpy as np
@@ -134,6 +135,32 @@ class PythonModuleTest(unittest.TestCase):
                          [face for faces in expected for face in faces])
         self.assertEqual([len(faces) > 0 for faces in expected], [abs(x) < 0.051 for x in places])
         self.assertEqual(clearance_line, 'x = -0.08 m: 25.0 mm away')
+
+    def test_topology_is_that_of_the_answers(self):
+        organ = self.organ('sheet')
+        self.assertEqual(organ.topology, 0)
+        organ.replace(VERTICES, FACES[::-1])
+        self.assertEqual(organ.topology, 1)
+        wait_until(lambda: self.queries.answer('sheet', TROCAR, TIP, RADIUS).topology == organ.topology, 'new faces')
+        for nothing in (FACES[:0], VERTICES[:0]):
+            with self.assertRaisesRegex(ValueError, 'face'):
+                organ.replace(nothing, FACES[:0])
+        self.assertEqual(organ.topology, 1)
+
+    def test_waiting_ends_with_the_refusal_of_the_mesh(self):
+        """But not while the organ is removed, or unknown: a mesh may come."""
+        organ = Organ('far', 1e9 * VERTICES, FACES)
+        self.addCleanup(organ.remove)
+        start = time.monotonic()
+        with self.assertRaisesRegex(CollisionError, "^NO_MESH: organ 'far' .* was refused: .* of vertex 0 is ") as raised:
+            self.queries.wait_for('far', 5 * LIMIT)
+        self.assertEqual(raised.exception.status, ContactArray.NO_MESH)
+        self.assertLess(time.monotonic() - start, 4 * LIMIT)
+        organ.replace(VERTICES, FACES)
+        self.queries.wait_for('far', LIMIT)
+        organ.remove()
+        threading.Timer(3.0, organ.replace, (VERTICES, FACES)).start()
+        self.queries.wait_for('far', LIMIT)
 
     def test_refusals_are_exceptions(self):
         self.organ('sheet', 'table')

@@ -6,9 +6,11 @@
 
 #include <boost/make_shared.hpp>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -152,11 +154,14 @@ ros::ServiceServer advertise_checked(ros::NodeHandle node, const std::string& se
 /// must have a message of this type. Throws ros::serialization::StreamOverrunException.
 template <typename Message, typename Holder>
 boost::shared_ptr<Message> held_message(const Holder& holder) {
-  std::vector<std::uint8_t> bytes(holder.size() + 1);  // One byte more: Stream needs an address.
-  ros::serialization::OStream copy(bytes.data(), holder.size());
+  const std::uint32_t size = holder.size();
+  // A damaged bag may claim 4 GB. Bytes that nobody writes take no memory, so they are not set to
+  // zero. One byte more: Stream needs an address.
+  const std::unique_ptr<std::uint8_t[]> bytes(new std::uint8_t[std::size_t{size} + 1]);
+  ros::serialization::OStream copy(bytes.get(), size);
   holder.write(copy);
   auto message = boost::make_shared<Message>();
-  CheckedStream(bytes.data(), holder.size()).next(*message);
+  CheckedStream(bytes.get(), size).next(*message);
   return message;
 }
 

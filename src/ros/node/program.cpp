@@ -75,8 +75,9 @@ std::optional<int> answer_arguments(int argc, char** argv, const ProgramHelp& he
   if (arguments.size() <= 1) return std::nullopt;
   for (const char* asks : {"--help", "-h"}) {
     if (std::find(arguments.begin() + 1, arguments.end(), asks) == arguments.end()) continue;
-    std::cout << help_text(help);
-    return 0;
+    if (std::cout << help_text(help) << std::flush) return 0;
+    std::cerr << help.program << ": stdout cannot be written\n";
+    return 1;
   }
   std::cerr << help.program << ": unknown argument '" << arguments[1]
             << "'; legal are --help, and ROS's NAME:=VALUE\n";

@@ -70,15 +70,6 @@ pid_t start_process(const std::vector<std::string>& command, std::FILE* input, s
   return process;
 }
 
-std::string describe(int status) {
-  if (WIFSIGNALED(status)) {
-    const int signal = WTERMSIG(status);
-    return "was ended by signal " + std::to_string(signal) + " (" + strsignal(signal) + ")";
-  }
-  const int code = WEXITSTATUS(status);
-  return code == 0 ? "" : "ended with exit code " + std::to_string(code);
-}
-
 /// Waits until the process ends, and kills it if it exceeds a limit. Returns why the process
 /// failed, or an empty text. If other code of this program has already taken the exit status (it
 /// ignores SIGCHLD or waits for all children), the process counts as successful.
@@ -100,7 +91,7 @@ std::string wait_for_end(pid_t process, std::FILE* output, const ProcessLimits& 
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-  return describe(status);
+  return failure_of(status);
 }
 
 constexpr char kProgram[] = "robot_reader";
@@ -120,6 +111,15 @@ std::string find_program() {
 }
 
 }  // namespace
+
+std::string failure_of(int status) {
+  if (WIFSIGNALED(status)) {
+    const int signal = WTERMSIG(status);
+    return "was ended by signal " + std::to_string(signal) + " (" + strsignal(signal) + ")";
+  }
+  const int code = WEXITSTATUS(status);
+  return code == 0 ? "" : "ended with exit code " + std::to_string(code);
+}
 
 ProcessResult run_process(const std::vector<std::string>& command, const std::string& input,
                           const ProcessLimits& limits) {

@@ -14,10 +14,14 @@ struct ProcessLimits {
   std::size_t output_bytes;        ///< most output; a process that writes more is soon killed
 };
 
+/// Why a process failed that ended with this status of waitpid(): "ended with exit code 3", or "was
+/// ended by signal 11 (Segmentation fault)". Empty if its exit code is 0.
+std::string failure_of(int status);
+
 /// How a process ended.
 struct ProcessResult {
   std::string output;   ///< what the process wrote on standard output, up to the limit
-  std::string failure;  ///< "was ended by signal 11 (Segmentation fault)"; empty: exit code 0
+  std::string failure;  ///< as of failure_of(), or the limit that was exceeded
 };
 
 /// Runs a program and waits for its end. `command`: its path and its arguments. `input`: what it

@@ -156,6 +156,16 @@ TEST(RobotReader, TooMuchMemoryNamesTheFile) {
                {"link 'tip': mesh '" + tool_file("huge.ply") + "'", "not enough memory"});
 }
 
+// The parser needs a time that grows with the square of the depth.
+TEST(RobotReader, NestedElementsMayTakeNoLongerThanOtherFilesOfTheirSize) {
+  constexpr int kDepth = 60'000;
+  std::string urdf = "<robot name='probe'><link name='tip'/>";
+  for (int i = 0; i < kDepth; ++i) urdf += "<a>";
+  for (int i = 0; i < kDepth; ++i) urdf += "</a>";
+  expect_words(refusal(urdf + "</robot>"),
+               {"was ended by signal " + std::to_string(SIGPROF), "too large"});
+}
+
 // A face claims to have 300 000 corners, and a comment makes the file large enough for them. The
 // parser would need more than 10 s.
 TEST(RobotReader, FilesThatTakeTooLongForTheirSizeAreRefusedByName) {
