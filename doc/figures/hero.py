@@ -10,7 +10,7 @@ import os
 import tempfile
 
 from geometry_msgs.msg import Point, Pose, Quaternion, Vector3
-from live_scene import HERE, Camera, Scene, collision_node, liver, ros_master, snapshot
+from live_scene import HERE, NODE, Camera, Scene, StillMarkers, collision_node, liver, ros_master, snapshot
 import numpy as np
 import rospy
 from std_msgs.msg import ColorRGBA, Header
@@ -25,7 +25,7 @@ BEFORE, NOW = np.array([0.062, -0.060, -0.022]), np.array([0.062, 0.095, -0.022]
 MARKERS_DEPTH = 0.25  # [m] Touched faces are yellow to red, and easy to see.
 
 CAMERA = Camera((-20, 30), (0.020, 0.018, 0.040), 0.30, (800, 700))
-PICTURE = ['--background', '#ffffff', '--after', '1', '--topic', 'organ_collision/markers', '--topic', 'before',
+PICTURE = ['--background', '#ffffff', '--topic', 'still', '--topic', 'before',
            '--hide', 'normals', '--hide', 'names', '--hide', 'status']
 
 
@@ -62,12 +62,14 @@ def main():
         figure, panels = style.panels(2, 4.0)
         with collision_node(TOOL, markers_depth=MARKERS_DEPTH):
             scene = Scene(mesh, TOOL['name'], TROCAR)
+            markers = StillMarkers(NODE + '/markers')
             # The first step after a reset is static.
-            for axes, tips, title, color in ((panels[0], [NOW], 'Static query: %d faces touched', style.TEXT),
-                                             (panels[1], [BEFORE, NOW], 'Swept query: %d faces touched', style.FACE)):
+            for axes, tips, traces, title, color in (
+                    (panels[0], [NOW], set(), 'Static query: %d faces touched', style.TEXT),
+                    (panels[1], [BEFORE, NOW], {'swept', 'touched'}, 'Swept query: %d faces touched', style.FACE)):
                 picture = os.path.join(folder, '%d.png' % len(tips))
-                with scene.playing(tips) as answer:
-                    snapshot(picture, *CAMERA.options(), *PICTURE)
+                answer = scene.moment(tips, markers, {'surface/liver', 'tools'} | traces)
+                snapshot(picture, *CAMERA.options(), *PICTURE)
                 draw_panel(axes, picture, title % len(answer.contacts), color)
         figure.tight_layout()
         style.save_picture(figure, os.path.join(HERE, 'hero.png'))

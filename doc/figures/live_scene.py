@@ -7,7 +7,6 @@ import signal
 import socket
 import subprocess
 import tempfile
-import threading
 import time
 
 from geometry_msgs.msg import TransformStamped
@@ -23,7 +22,7 @@ import yaml
 HERE = os.path.dirname(os.path.abspath(__file__))
 NODE = '/organ_collision'
 LIMIT = 60.0  # [s] longest wait for anything
-PERIOD = 0.2  # [s] from one step to its repetition, so that its traces do not fade
+FRESH = 0.7  # The least opacity of touched faces: traces of an older step fade.
 
 
 @contextlib.contextmanager
@@ -152,6 +151,12 @@ class StillMarkers:
             else:
                 self.markers[key] = marker
 
+    def has(self, namespaces):
+        """Whether markers of all these namespaces are there, and no traces of contacts that have faded."""
+        markers = list(self.markers.values())
+        opacity = [color.a for marker in markers if marker.ns == 'touched' for color in marker.colors]
+        return namespaces <= {marker.ns for marker in markers} and min(opacity, default=1.0) > FRESH
+
     def still(self):
         markers = list(self.markers.values())
         for number, marker in enumerate(markers):
@@ -205,20 +210,16 @@ class Scene:
         self.reset()
         return [self.move_tool(tip) for tip in tips][-1]
 
-    def repeat(self, tips, end):
-        """Plays the same steps again and again until the event `end`."""
-        while not end.wait(PERIOD):
-            self.play(tips)
-
-    @contextlib.contextmanager
-    def playing(self, tips):
-        """Plays the tool's steps through `tips` during a `with` block. Gives the answer to the last one."""
-        answer = self.play(tips)
-        end = threading.Event()
-        motion = threading.Thread(target=self.repeat, args=(tips, end))
-        motion.start()
-        try:
-            yield answer
-        finally:
-            end.set()
-            motion.join()
+    def moment(self, tips, markers, namespaces):
+        """Plays the tool's steps until all that these namespaces show is there at one moment, and publishes this moment
+        on the topic `still`. Returns the last answer."""
+        end = time.monotonic() + LIMIT
+        while time.monotonic() < end:
+            answer = self.play(tips)
+            patience = time.monotonic() + 2.0
+            while time.monotonic() < patience:
+                if markers.has(namespaces):
+                    markers.still()
+                    return answer
+                time.sleep(0.01)
+        raise SystemExit('waited %g s for markers of %s' % (LIMIT, ', '.join(sorted(namespaces))))

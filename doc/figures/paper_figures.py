@@ -7,7 +7,7 @@ Usage: . devel/setup.bash && doc/figures/paper_figures.py
 
 import os
 
-from live_scene import HERE, Scene, collision_node, liver, ros_master, snapshot
+from live_scene import HERE, NODE, Scene, StillMarkers, collision_node, liver, ros_master, snapshot
 
 # The tool, in the liver's frame [m]. It is thin, like the segment in the paper's figures.
 TOOL = {'name': 'tool', 'trocar_frame': 'trocar', 'tip_frame': 'tip', 'radius': 0.002}
@@ -16,7 +16,8 @@ BEFORE, AFTER = (-0.070, -0.020, 0.015), (0.020, -0.035, 0.010)
 MARKERS_DEPTH = 0.25  # [m] Touched faces are yellow to red, and easy to see.
 
 CAMERA = ['--view', '-80,45', '--target', '0.0,0.0,0.025', '--distance', '0.27']
-PICTURE = ['--size', '720x540', '--background', '#ffffff', '--after', '1']
+PICTURE = ['--size', '720x540', '--background', '#ffffff', '--topic', 'still']
+SHOWN = {'surface/liver', 'tools', 'touched'}
 HIDDEN = ['--hide', 'normals', '--hide', 'crossings', '--hide', 'names', '--hide', 'status']
 
 
@@ -25,9 +26,11 @@ def main():
         mesh = liver()
         with collision_node(TOOL, markers_depth=MARKERS_DEPTH):
             scene = Scene(mesh, TOOL['name'], TROCAR)
-            for tips, file in (([BEFORE], 'paper_figure_9.png'), ([BEFORE, AFTER], 'paper_figure_10.png')):
-                with scene.playing(tips):
-                    snapshot(os.path.join(HERE, file), *CAMERA, *PICTURE, *HIDDEN)
+            markers = StillMarkers(NODE + '/markers')
+            for tips, shown, file in (([BEFORE], SHOWN, 'paper_figure_9.png'),
+                                      ([BEFORE, AFTER], SHOWN | {'swept'}, 'paper_figure_10.png')):
+                scene.moment(tips, markers, shown)
+                snapshot(os.path.join(HERE, file), *CAMERA, *PICTURE, *HIDDEN)
 
 
 if __name__ == '__main__':

@@ -24,7 +24,7 @@ HOOK = {'name': 'hook', 'trocar_frame': 'hook_trocar', 'tip_frame': 'hook_tip', 
         'max_near': 30}
 HOOK_TROCAR, HOOK_TIP = (0.130, -0.02, 0.070), (0.068, 0.005, 0.032)
 SHORT = 0.1  # [s] All markers come, and traces do not fade much.
-CAMERA = Camera((-80, 32), (0.0, 0.0, 0.054), 0.285, (1600, 960))
+CAMERA = Camera((-80, 32), (0.0, 0.0, -0.020), 0.300, (1600, 960))
 
 
 def place(point):
@@ -38,17 +38,17 @@ def call_outs(mesh, probe, hook):
     crossing = place(probe.placement.crossings[0].point)
     outwards = (TROCAR - crossing) / np.linalg.norm(TROCAR - crossing)
     in_liver = (
-        ('tools', TROCAR + 0.25 * (NOW - TROCAR), (60, 590)),
-        ('swept: where\nthe axis went', 0.25 * TROCAR + 0.55 * BEFORE + 0.2 * NOW, (60, 700)),
-        ('surface/liver: the organ', (-0.088, -0.030, 0.004), (60, 810)),
-        ('normals of the contacts', place(deepest.on_organ) - 0.008 * place(deepest.normal), (230, 905)),
-        ('touched: coloured by depth', np.mean(corners, axis=0), (600, 905)),
-        ('crossings: the axis enters', crossing + 0.012 * outwards, (570, 430)),
+        ('tools', TROCAR + 0.25 * (NOW - TROCAR), (60, 330)),
+        ('swept: where\nthe axis went', 0.25 * TROCAR + 0.55 * BEFORE + 0.2 * NOW, (60, 430)),
+        ('surface/liver: the organ', (-0.088, -0.030, 0.004), (60, 550)),
+        ('normals of the contacts', place(deepest.on_organ) - 0.008 * place(deepest.normal), (150, 660)),
+        ('touched: coloured by depth', np.mean(corners, axis=0), (560, 660)),
+        ('crossings: the axis enters', crossing + 0.012 * outwards, (620, 130)),
         ('clearance: the nearest points',
-         0.5 * (place(hook.clearance.on_tool) + place(hook.clearance.on_organ)), (1060, 880)),
-        ('near: faces within\nthe margin', (0.074, 0.001, 0.019), (1300, 720)))
+         0.5 * (place(hook.clearance.on_tool) + place(hook.clearance.on_organ)), (1060, 620)),
+        ('near: faces within\nthe margin', (0.074, 0.001, 0.019), (1300, 470)))
     found = [(name, CAMERA.pixel(anchor), label) for name, anchor, label in in_liver]
-    return found + [('status of each tool', (520, 118), (740, 70))]
+    return found + [('status of each tool', CAMERA.pixel((0.045, 0.0, -0.105)), (1230, 760))]
 
 
 def draw(picture, names):

@@ -7,33 +7,25 @@
 #include <organ_collision/OrganVertices.h>
 #include <organ_collision/ProxyState.h>
 #include <ros/ros.h>
-#include <tf2_ros/transform_listener.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
-#include <deque>
 #include <map>
 #include <set>
 
-#include "geometry/distance/closest_points.hpp"
 #include "offline/user_input.hpp"
-#include "organ_collision/geometry/tolerances.hpp"
 #include "organ_collision/ros/names.hpp"
 #include "ros/markers/markers.hpp"
 #include "ros/messages/conversions.hpp"
-#include "ros/motion/tool_poses.hpp"
 #include "ros/node/program.hpp"
-#include "ros/parameters/node_parameters.hpp"
 
 namespace organ_collision {
 namespace {
 
 constexpr double kFirstPatienceSec = 60.0;  // until the collision node answers for the first time
 constexpr double kPatienceSec = 10.0;       // between two answers
-constexpr std::size_t kFacesListed = 4;
-constexpr std::size_t kShapesKept = 500;
 constexpr double kMicroseconds = 1e6;
 constexpr char kCollisionNode[] = "/organ_collision";
 constexpr char kHapticNode[] = "/haptic_proxy";
@@ -52,7 +44,6 @@ ProgramHelp help() {
                      {names::kOrganVertices, "organ_collision/OrganVertices", "its shapes"},
                      {std::string(kHapticNode) + "/" + kProxyTopic, "organ_collision/ProxyState",
                       "what the palpator's proxy does"},
-                     {"/tf, /tf_static", "tf2_msgs/TFMessage", "where the tools are"},
                      {"/diagnostics", "diagnostic_msgs/DiagnosticArray", "query times"}};
   help.parameters = {{"seconds", "0", "[s] how long it listens; 0: until it is stopped"},
                      {"collision_node", kCollisionNode, "name of the collision node"},
@@ -68,17 +59,6 @@ double percentile(std::vector<double> values, double percent) {
   const auto nth = values.begin() + std::lround(percent / 100.0 * (values.size() - 1));
   std::nth_element(values.begin(), nth, values.end());
   return *nth;
-}
-
-/// The first faces as " (7 8 9 10 ...)"; empty if there are none.
-std::string first_of(const std::set<std::uint32_t>& faces) {
-  std::string text;
-  std::size_t listed = 0;
-  for (const std::uint32_t face : faces) {
-    if (++listed > kFacesListed) return text + " ...)";
-    text += (listed > 1 ? " " : " (") + std::to_string(face);
-  }
-  return faces.empty() ? text : text + ")";
 }
 
 /// What a proxy did.
@@ -105,108 +85,22 @@ struct ProxyTally {
   double tick_sec = 0.0;        ///< [s] the sum of all ticks
 };
 
-/// Counts the contacts that a static test at the same instants would have missed. These are the
-/// contacts whose face is farther from the axis than the radius when the step ends. Uses exact
-/// distances, from the shapes and transforms on the topics, without the collision node.
-class StaticComparison {
- public:
-  struct Tally {
-    std::size_t contacts = 0;
-    std::size_t missed_by_static = 0;
-  };
-
-  /// `transforms` must outlive this object.
-  StaticComparison(std::vector<ToolParameters> tools, TransformBuffer& transforms)
-      : poses_(transforms, PathSampling{}) {
-    for (ToolParameters& tool : tools) {
-      tallies_[tool.name];
-      tools_.emplace_back().parameters = std::move(tool);
-    }
-  }
-
-  /// `triangles`: three vertex indices for each face.
-  void set_triangles(std::vector<std::uint32_t> triangles) { triangles_ = std::move(triangles); }
-
-  /// `vertices`: x y z x y z ... [m], of the shape at `stamp`. Keeps the shapes of a few seconds.
-  void add_shape(const ros::Time& stamp, std::vector<float> vertices) {
-    shapes_.push_back({stamp, std::move(vertices)});
-    if (shapes_.size() > kShapesKept) shapes_.pop_front();
-    compare_waiting();
-  }
-
-  /// Adds an answer with status OK. It waits until its shape and its tool's pose have arrived.
-  void add_answer(const ContactArrayConstPtr& answer) {
-    waiting_.push_back(answer);
-    compare_waiting();
-  }
-
-  /// The tallies of the answers compared so far, by name of the tool.
-  const std::map<std::string, Tally>& tallies() const { return tallies_; }
-  /// The number of answers whose shape or pose has not arrived yet.
-  std::size_t waiting() const { return waiting_.size(); }
-
- private:
-  struct Shape {
-    ros::Time stamp;
-    std::vector<float> vertices;
-  };
-
-  void compare_waiting() {
-    const auto compared = std::remove_if(waiting_.begin(), waiting_.end(),
-                                         [this](const auto& answer) { return compare(*answer); });
-    waiting_.erase(compared, waiting_.end());
-  }
-
-  /// Compares an answer. Returns false if its shape or its pose has not arrived yet.
-  bool compare(const ContactArray& answer) {
-    const auto tool = std::find_if(tools_.begin(), tools_.end(), [&](const Tool& tool) {
-      return tool.parameters.name == answer.tool;
-    });
-    const auto shape = std::find_if(shapes_.rbegin(), shapes_.rend(), [&](const Shape& shape) {
-      return shape.stamp == answer.mesh_stamp;
-    });
-    if (tool == tools_.end() || shape == shapes_.rend() || triangles_.empty()) return false;
-    const auto pose = poses_.pose(*tool, answer.header.frame_id, answer.header.stamp);
-    if (!pose.found) return false;
-    Tally& tally = tallies_[answer.tool];
-    for (const auto& contact : answer.contacts) {
-      const auto nearest = closest_points(pose.found->value.axis, face(*shape, contact.face));
-      ++tally.contacts;
-      if (nearest.distance > tool->parameters.radius + tolerance::kTouch) ++tally.missed_by_static;
-    }
-    return true;
-  }
-
-  Triangle face(const Shape& shape, std::uint32_t number) const {
-    Triangle corners;
-    for (int k = 0; k < 3; ++k) {
-      const float* vertex = &shape.vertices.at(3 * triangles_.at(3 * number + k));
-      corners[k] = Eigen::Vector3d(vertex[0], vertex[1], vertex[2]);
-    }
-    return corners;
-  }
-
-  std::vector<Tool> tools_;
-  ToolPoses poses_;
-  std::vector<std::uint32_t> triangles_;
-  std::deque<Shape> shapes_;
-  std::deque<ContactArrayConstPtr> waiting_;
-  std::map<std::string, Tally> tallies_;
+/// What the collision node found of a tool.
+struct ContactTally {
+  std::set<std::uint32_t> faces;     ///< touched since the last printed line
+  std::size_t contacts = 0;          ///< since the start
+  std::size_t missed_by_static = 0;  ///< those that had ended when the step ended
 };
 
 class DemoReport {
  public:
   DemoReport(ros::NodeHandle node, ros::NodeHandle collision_node, ros::NodeHandle haptic_node)
-      : transform_listener_(transforms_),
-        comparison_(load_parameters<NodeParameters>(collision_node).tools, transforms_),
-        subscribers_{
+      : subscribers_{
             collision_node.subscribe("organ_mesh", 10, &DemoReport::on_mesh, this),
             collision_node.subscribe("organ_vertices", 1000, &DemoReport::on_vertices, this),
             collision_node.subscribe("contacts", 1000, &DemoReport::on_contacts, this),
             haptic_node.subscribe(kProxyTopic, 1000, &ProxyTally::add, &proxy_),
-            node.subscribe("/diagnostics", 10, &DemoReport::on_diagnostics, this)} {
-    for (const auto& [tool, tally] : comparison_.tallies()) touched_[tool];
-  }
+            node.subscribe("/diagnostics", 10, &DemoReport::on_diagnostics, this)} {}
 
   /// When the collision node answered last, even if only with a failure. Zero: never.
   ros::WallTime last_answer() const { return last_answer_; }
@@ -215,9 +109,9 @@ class DemoReport {
   void print_line(double time, double seconds) {
     std::printf("%4.0f s  %3.0f shapes/s  %3.0f answers/s", time, shapes_ / seconds,
                 answers_ / seconds);
-    for (auto& [tool, faces] : touched_) {
-      std::printf("  %s %zu faces%s", tool.c_str(), faces.size(), first_of(faces).c_str());
-      faces.clear();
+    for (auto& [tool, tally] : tallies_) {
+      std::printf("  %s %zu faces", tool.c_str(), tally.faces.size());
+      tally.faces.clear();
     }
     if (diagnostics_[kMedian] > 0.0) std::printf("  query %.0f us", diagnostics_[kMedian]);
     std::printf("  palpator %s", name_of(static_cast<ProxyStatus>(proxy_.latest.state)).c_str());
@@ -237,7 +131,7 @@ class DemoReport {
   /// `time` [s]: since the start.
   bool print_summary(double time) {
     std::size_t contacts = 0, missed = 0;
-    for (const auto& [tool, tally] : comparison_.tallies()) {
+    for (const auto& [tool, tally] : tallies_) {
       contacts += tally.contacts;
       missed += tally.missed_by_static;
     }
@@ -246,12 +140,9 @@ class DemoReport {
       std::printf(" A static test at the same instants would have missed %zu of them (%.0f%%):\n",
                   missed, 100.0 * missed / contacts);
     }
-    for (const auto& [tool, tally] : comparison_.tallies()) {
+    for (const auto& [tool, tally] : tallies_) {
       std::printf("  %-10s %6zu contacts, %6zu missed\n", tool.c_str(), tally.contacts,
                   tally.missed_by_static);
-    }
-    if (comparison_.waiting() > 0) {
-      std::printf("  %zu answers could not be compared\n", comparison_.waiting());
     }
     std::printf("Query time: median %.0f us, 99%% within %.0f us, worst %.0f us.\n",
                 diagnostics_[kMedian], diagnostics_[kPercentile99], diagnostics_[kWorst]);
@@ -271,14 +162,10 @@ class DemoReport {
  private:
   void on_mesh(const OrganMesh& mesh) {
     ++shapes_;
-    comparison_.set_triangles(mesh.triangles);
-    comparison_.add_shape(mesh.header.stamp, mesh.vertices);
+    if (mesh.topology > 0) std::printf("        a cut: %zu faces\n", mesh.triangles.size() / 3);
   }
 
-  void on_vertices(const OrganVertices& vertices) {
-    ++shapes_;
-    comparison_.add_shape(vertices.header.stamp, vertices.vertices);
-  }
+  void on_vertices(const OrganVertices&) { ++shapes_; }
 
   void on_contacts(const ContactArrayConstPtr& answer) {
     last_answer_ = ros::WallTime::now();
@@ -288,8 +175,12 @@ class DemoReport {
     }
     ++answers_;
     delays_.push_back((ros::Time::now() - answer->mesh_stamp).toSec());
-    for (const auto& contact : answer->contacts) touched_[answer->tool].insert(contact.face);
-    comparison_.add_answer(answer);
+    ContactTally& tally = tallies_[answer->tool];
+    for (const Contact& contact : answer->contacts) {
+      tally.faces.insert(contact.face);
+      ++tally.contacts;
+      tally.missed_by_static += !contact.touching;
+    }
   }
 
   void on_diagnostics(const diagnostic_msgs::DiagnosticArray& array) {
@@ -303,14 +194,10 @@ class DemoReport {
   }
 
   ProxyTally proxy_;
-  TransformBuffer transforms_;
-  tf2_ros::TransformListener transform_listener_;
-  StaticComparison comparison_;
-
-  std::map<std::string, std::set<std::uint32_t>> touched_;  ///< faces by tool, since the last line
-  std::size_t shapes_ = 0, answers_ = 0;                    ///< since the last line
-  std::vector<double> delays_;                              ///< [s] from shape to answer
-  std::map<std::string, double> diagnostics_;               ///< the numbers on /diagnostics, by key
+  std::map<std::string, ContactTally> tallies_;  ///< by tool
+  std::size_t shapes_ = 0, answers_ = 0;         ///< since the last line
+  std::vector<double> delays_;                   ///< [s] from shape to answer
+  std::map<std::string, double> diagnostics_;    ///< the numbers on /diagnostics, by key
   ros::WallTime last_answer_;
   std::string failure_;  ///< the latest failure since the last line
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace organ_collision {
 namespace {
@@ -180,14 +181,47 @@ ClosedSurface make_liver_surface() {
   return surface;
 }
 
-LiverSoftBody::LiverSoftBody(const ClosedSurface& surface)
-    : world_(std::make_unique<btSoftBodyWorldInfo>()) {
+CutSurface cut_off(const ClosedSurface& whole, const Eigen::Hyperplane<double, 3>& plane) {
+  CutSurface left;
+  std::map<std::uint32_t, std::uint32_t> number_of;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+  for (const FaceIndices& face : whole.faces) {
+    const auto is_left = [&](std::uint32_t vertex) {
+      return plane.signedDistance(whole.vertices[vertex]) < 0.0;
+    };
+    if (std::none_of(face.begin(), face.end(), is_left)) continue;
+    FaceIndices& own = left.surface.faces.emplace_back();
+    for (int k = 0; k < 3; ++k) {
+      const Vector3d& place = whole.vertices[face[k]];
+      const auto [number, is_new] = number_of.try_emplace(face[k], left.origins.size());
+      own[k] = number->second;
+      if (!is_new) continue;
+      left.origins.push_back(face[k]);
+      left.surface.vertices.push_back(is_left(face[k]) ? place : plane.projection(place));
+    }
+    for (int k = 0; k < 3; ++k) edges.emplace(own[k], own[(k + 1) % 3]);
+  }
+  Vector3d rim = Vector3d::Zero();
+  const auto centre = static_cast<std::uint32_t>(left.origins.size());
+  const std::size_t faces = left.surface.faces.size();
+  for (const auto& [from, to] : edges) {
+    if (edges.count({to, from}) > 0) continue;
+    left.surface.faces.push_back({to, from, centre});
+    left.origins.resize(centre + 1, left.origins[from]);
+    rim += left.surface.vertices[from];
+  }
+  left.surface.vertices.push_back(rim / static_cast<double>(left.surface.faces.size() - faces));
+  return left;
+}
+
+LiverSoftBody::LiverSoftBody(ClosedSurface surface)
+    : surface_(std::move(surface)), world_(std::make_unique<btSoftBodyWorldInfo>()) {
   world_->m_gravity.setZero();  // the shape at rest already includes gravity
   world_->m_sparsesdf.Initialize();
   btAlignedObjectArray<btVector3> positions;
-  for (const Vector3d& vertex : surface.vertices) positions.push_back(to_bullet(vertex));
+  for (const Vector3d& vertex : surface_.vertices) positions.push_back(to_bullet(vertex));
   body_ = std::make_unique<btSoftBody>(world_.get(), positions.size(), &positions[0], nullptr);
-  for (const FaceIndices& face : surface.faces) {
+  for (const FaceIndices& face : surface_.faces) {
     for (int k = 0; k < 3; ++k) body_->appendLink(face[k], face[(k + 1) % 3], nullptr, true);
     body_->appendFace(face[0], face[1], face[2]);
   }
@@ -197,15 +231,30 @@ LiverSoftBody::LiverSoftBody(const ClosedSurface& surface)
   body_->m_cfg.kMT = 0.008;  // [1] share of the deformation undone in a substep
   body_->m_cfg.kVC = 1e6;    // [Pa/m^3] pressure against a loss of volume
   body_->setTotalMass(kMass);
-  for (std::size_t i = 0; i < surface.vertices.size(); ++i) {
-    if (!is_held(surface.vertices[i])) continue;
+  for (std::size_t i = 0; i < surface_.vertices.size(); ++i) {
+    if (!is_held(surface_.vertices[i])) continue;
     body_->setMass(i, 0.0);
-    ligaments_.push_back({static_cast<int>(i), surface.vertices[i]});
+    ligaments_.push_back({static_cast<int>(i), surface_.vertices[i]});
   }
   body_->setPose(true, true);
 }
 
 LiverSoftBody::~LiverSoftBody() = default;
+
+void LiverSoftBody::cut(const Eigen::Hyperplane<double, 3>& plane) {
+  const CutSurface cut = cut_off(surface_, plane);
+  LiverSoftBody left(cut.surface);
+  for (std::size_t i = 0; i < cut.origins.size(); ++i) {
+    const btSoftBody::Node& origin = body_->m_nodes[cut.origins[i]];
+    btSoftBody::Node& node = left.body_->m_nodes[i];
+    node.m_x += origin.m_x - to_bullet(surface_.vertices[cut.origins[i]]);
+    node.m_v = origin.m_v;
+  }
+  std::swap(surface_, left.surface_);
+  std::swap(world_, left.world_);
+  std::swap(body_, left.body_);
+  std::swap(ligaments_, left.ligaments_);
+}
 
 void LiverSoftBody::step(double seconds, const std::vector<VertexPush>& pushes) {
   give_way(pushes);

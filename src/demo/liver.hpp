@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -34,6 +34,17 @@ double liver_level(const Eigen::Vector3d& point);
 /// onto liver_level = 0 and spread evenly there.
 ClosedSurface make_liver_surface();
 
+/// What is left of a surface, and for each of its vertices the number of one that moves alike.
+struct CutSurface {
+  ClosedSurface surface;
+  std::vector<std::uint32_t> origins;
+};
+
+/// Takes away the faces beyond a plane: on its positive side. Vertices beyond it that other faces
+/// have as well are moved onto it, and a fan of new faces closes the hole, which must be a single
+/// and star-shaped one.
+CutSurface cut_off(const ClosedSurface& whole, const Eigen::Hyperplane<double, 3>& plane);
+
 /// How far a push moves a vertex.
 struct VertexPush {
   std::uint32_t vertex;
@@ -45,8 +56,14 @@ struct VertexPush {
 class LiverSoftBody {
  public:
   /// The liver at rest, exhaled.
-  explicit LiverSoftBody(const ClosedSurface& surface);
+  explicit LiverSoftBody(ClosedSurface surface);
   ~LiverSoftBody();
+
+  /// Its surface at rest.
+  const ClosedSurface& surface() const { return surface_; }
+
+  /// Cuts off what is beyond a plane through the liver at rest. The rest moves on.
+  void cut(const Eigen::Hyperplane<double, 3>& plane);
 
   /// Applies the pushes, then simulates `seconds` (> 0). A vertex that several pushes move is
   /// displaced by their mean.
@@ -63,6 +80,7 @@ class LiverSoftBody {
     int node;
     Eigen::Vector3d rest;  ///< [m]
   };
+  ClosedSurface surface_;  ///< at rest
   std::unique_ptr<btSoftBodyWorldInfo> world_;
   std::unique_ptr<btSoftBody> body_;
   std::vector<Ligament> ligaments_;

@@ -33,7 +33,9 @@ constexpr double kCompliance = 1e-3;
 /// [s] At first, no shape is sent for this long, so that listeners have TF before the first shape.
 constexpr double kTfLeadSec = 0.5;
 constexpr double kRate = 125.0;  // [Hz] how often a shape is sent, by default
-constexpr int kHandPoses = 8;    // poses of the hand for each shape: 1 kHz by default
+/// [s] After this stab, the stabber has cut off the end of the lobe.
+constexpr double kCutTime = 8.0;
+constexpr int kHandPoses = 8;  // poses of the hand for each shape: 1 kHz by default
 constexpr char kCollisionNode[] = "/organ_collision";
 constexpr char kHapticNode[] = "/haptic_proxy";
 
@@ -46,7 +48,8 @@ ProgramHelp help() {
   help.subscribed = {{names::kContacts, "organ_collision/ContactArray", "what pushes the tissue"},
                      {below_haptic_node, "organ_collision/VertexForces",
                       "how the proxy of the palpator pushes it"}};
-  help.published = {{names::kOrganMesh, "organ_collision/OrganMesh", "the liver, once"},
+  help.published = {{names::kOrganMesh, "organ_collision/OrganMesh",
+                     "the liver, and after 8 s what the stabber leaves of it"},
                     {names::kOrganVertices, "organ_collision/OrganVertices", "its new shapes"},
                     {"/palpator/hand", "geometry_msgs/PoseStamped", "the hand, 8 for each shape"},
                     {"/tf, /tf_static", "tf2_msgs/TFMessage", "trocars, and the stabber's tip"}};
@@ -105,8 +108,7 @@ class LiverSimulator {
   LiverSimulator(ros::NodeHandle node, ros::NodeHandle collision_node, ros::NodeHandle haptic_node,
                  double rate)
       : rate_(rate),
-        surface_(make_liver_surface()),
-        liver_(surface_),
+        liver_(make_liver_surface()),
         mesh_publisher_(collision_node.advertise<OrganMesh>(names::kOrganMesh, 1, true)),
         vertices_publisher_(collision_node.advertise<OrganVertices>(names::kOrganVertices, 1)),
         hand_publisher_(node.advertise<geometry_msgs::PoseStamped>(kPalpator.name + "/hand", 1)),
@@ -140,7 +142,7 @@ class LiverSimulator {
   /// Publishes the liver with its triangles. If step() was never called, the liver is at rest.
   void publish_mesh(const ros::Time& stamp) {
     auto mesh = shape<OrganMesh>(stamp);
-    for (const FaceIndices& face : surface_.faces) {
+    for (const FaceIndices& face : liver_.surface().faces) {
       mesh.triangles.insert(mesh.triangles.end(), face.begin(), face.end());
     }
     mesh_publisher_.publish(mesh);
@@ -154,9 +156,22 @@ class LiverSimulator {
     pushes_.clear();
     if (++steps_ > 1) liver_.step(1.0 / rate_, pushes);
     const ros::Time stamp = ros::Time::now();
-    send_stabber(steps_ / rate_, stamp);
-    if (steps_ == 1) return publish_mesh(stamp);
+    const double seconds = steps_ / rate_;
+    send_stabber(seconds, stamp);
+    const bool is_cut = topology_ == 0 && seconds > kCutTime + kStabDuration;
+    if (is_cut) cut_lobe();
+    if (steps_ == 1 || is_cut) return publish_mesh(stamp);
     vertices_publisher_.publish(shape<OrganVertices>(stamp));
+  }
+
+  /// Cuts off the lobe's end: what is beyond the plane in which the stabber moved.
+  void cut_lobe() {
+    const Eigen::Vector3d before = kStabber.tip(kCutTime),
+                          after = kStabber.tip(kCutTime + kStabDuration);
+    auto plane = Eigen::Hyperplane<double, 3>::Through(kStabber.trocar, before, after);
+    if (plane.normal().x() < 0.0) plane.coeffs() *= -1.0;
+    liver_.cut(plane);
+    ++topology_;
   }
 
   /// Sends the stabber's tip at `seconds` since the start.
@@ -177,29 +192,33 @@ class LiverSimulator {
   }
 
   void on_contacts(const ContactArray& array) {
-    if (array.status == ContactArray::OK && array.organ == kOrgan) {
+    const bool is_ours = array.organ == kOrgan && array.topology == topology_;
+    if (array.status == ContactArray::OK && is_ours) {
       pushes_[array.tool] = pushes_of(array.contacts);
     }
   }
 
-  void on_forces(const VertexForces& forces) { pushes_["the hand"] = pushes_of(forces); }
+  void on_forces(const VertexForces& forces) {
+    if (forces.topology == topology_) pushes_["the hand"] = pushes_of(forces);
+  }
 
   template <typename Message>
   Message shape(const ros::Time& stamp) const {
     Message message;
     message.header.stamp = stamp;
     message.header.frame_id = message.organ = kOrgan;
+    message.topology = topology_;
     message.vertices = liver_.vertices();
     return message;
   }
 
   double rate_;
-  ClosedSurface surface_;
   LiverSoftBody liver_;
   std::map<std::string, std::vector<VertexPush>> pushes_;  ///< by sender; since the last shape
   long calls_ = 0;
   long lead_steps_ = 0;
   long steps_ = 0;
+  std::uint32_t topology_ = 0;  ///< 1 after the cut
   tf2_ros::StaticTransformBroadcaster trocar_broadcaster_;
   tf2_ros::TransformBroadcaster tip_broadcaster_;
   ros::Publisher mesh_publisher_;

@@ -182,6 +182,57 @@ TEST_F(LiverTest, SurvivesViolenceAndReturnsToItsShape) {
   EXPECT_LT(farthest_from_rest(liver_.vertices(), rest_), 0.01);
 }
 
+TEST_F(LiverTest, ACutLeavesAClosedSurface) {
+  const double whole = expect_closed(surface_.faces, rest_);
+  for (const Vector3d& tilt : {Vector3d(0, 0, 0), Vector3d(0, 0.2, -0.1), Vector3d(0, -0.3, 0.2)}) {
+    const Eigen::Hyperplane<double, 3> plane((Vector3d::UnitX() + tilt).normalized(),
+                                             Vector3d(0.072, 0.017, 0.004));
+    const CutSurface cut = cut_off(surface_, plane);
+    ASSERT_EQ(cut.origins.size(), cut.surface.vertices.size());
+    EXPECT_LT(cut.surface.faces.size(), surface_.faces.size());
+    const Vertices left = LiverSoftBody(cut.surface).vertices();
+    const double volume = expect_closed(cut.surface.faces, left);
+    EXPECT_GT(volume, 0.8 * whole);
+    EXPECT_LT(volume, 0.97 * whole);
+    for (std::size_t i = 0; i < cut.origins.size(); ++i) {
+      const Vector3d& place = cut.surface.vertices[i];
+      const Vector3d& origin = surface_.vertices[cut.origins[i]];
+      EXPECT_LE(plane.signedDistance(place), 1e-9);
+      if (plane.signedDistance(place) < -1e-9) EXPECT_EQ(place, origin) << i;
+    }
+    for (std::size_t i = 0; i < cut.surface.faces.size(); ++i) {
+      const Triangle t = cut.surface.triangle(i);
+      EXPECT_GT((t[1] - t[0]).cross(t[2] - t[0]).norm(), 0.0) << "face " << i;
+    }
+  }
+}
+
+TEST_F(LiverTest, WhatACutLeavesMovesOn) {
+  const std::uint32_t pushed = vertex_nearest(rest_, {-0.05, 0.0, 0.04});
+  for (int step = 0; step < 120; ++step) liver_.step(kStep, {{pushed, {0.0, 0.0, -0.001}}});
+  const Vertices before = liver_.vertices();
+  const Eigen::Hyperplane<double, 3> plane(Vector3d::UnitX(), -0.072);
+  const CutSurface cut = cut_off(surface_, plane);
+  liver_.cut(plane);
+  EXPECT_EQ(liver_.surface().faces, cut.surface.faces);
+  const Vertices after = liver_.vertices();
+  ASSERT_EQ(after.size(), 3 * cut.origins.size());
+  for (std::size_t i = 0; i < cut.origins.size(); ++i) {
+    const Vector3d moved = vertex(after, i) - cut.surface.vertices[i];
+    const Vector3d origin = vertex(before, cut.origins[i]) - surface_.vertices[cut.origins[i]];
+    EXPECT_LT((moved - origin).norm(), 1e-6) << i;
+  }
+  // It breathes on with the same phase, and keeps its shape.
+  Vertices rest;
+  for (const Vector3d& place : cut.surface.vertices)
+    rest.insert(rest.end(), place.begin(), place.end());
+  for (int step = 120; step < 3 * kStepsPerBreath; ++step) {
+    liver_.step(kStep, {});
+    ASSERT_LT(farthest_from_rest(liver_.vertices(), rest), 0.02) << "step " << step;
+  }
+  EXPECT_LT(farthest_from_rest(liver_.vertices(), rest), 2e-3);
+}
+
 /// [m] The distance from the axis to the liver at rest.
 double distance_to(const ClosedSurface& liver, const ShaftAxis& axis) {
   double nearest = 1.0;

@@ -150,8 +150,8 @@ void add_crossings(const SceneOrgan& organ, const ShaftAxis& axis, double radius
 
 /// For example "probe: 3 contacts, 1.2 mm deep, tip inside, 32.1 mm of its axis inside", or "probe:
 /// touches nothing, 3.2 mm away". If the step failed, for example "probe: no transform: ...", with
-/// the message.
-std::string status_line(const std::string& tool, const ContactArrayConstPtr& answer) {
+/// the message. `fades`: faces that the tool touched are still shown.
+std::string status_line(const std::string& tool, const ContactArrayConstPtr& answer, bool fades) {
   constexpr std::size_t kLongestReason = 100;  // [bytes]
   if (!answer) return tool + ": no answer yet";
   if (answer->status != ContactArray::OK) {
@@ -165,7 +165,7 @@ std::string status_line(const std::string& tool, const ContactArrayConstPtr& ans
     const double depth = std::min_element(contacts.begin(), contacts.end(), is_deeper)->depth;
     line += counted(contacts.size(), "contact") + rounded(", %.1f mm deep", 1e3 * depth);
   } else {
-    line += "touches nothing";
+    line += fades ? "touched a moment ago" : "touches nothing";
     if (clearance.state == Clearance::KNOWN) {
       line += clearance.unresolved ? ", at most" : ",";
       line += rounded(" %.1f mm away", 1e3 * clearance.distance);
@@ -207,25 +207,29 @@ void add_contacts(const SceneOrgan& organ, const ContactArray& answer, double sh
   add_names(organ, answer, share, picture);
 }
 
-void add_status(const Scene& scene, const SceneOrgan& organ, double query_sec,
+void add_status(const Scene& scene, const SceneOrgan& organ,
+                const std::vector<const SceneStep*>& fading, double query_sec,
                 MarkerArray& picture) {
-  constexpr double kDistance = 0.15;  // The distance of the text from the organ's box.
-  constexpr double kLineSpacing = 0.09;
-  std::string text = organ.name + ": " + counted(organ.mesh->face_count(), "face");
-  bool failed = false;
-  for (const ScenePair& pair : organ.pairs) {
-    // With many organs and tools, lines about far pairs would hide those about near ones.
-    if (scene.organs.size() > 1 && is_far(pair)) continue;
-    text += "\n" + status_line((*scene.tools)[pair.tool].parameters.name, pair.answer);
-    failed = failed || (pair.answer && pair.answer->status != ContactArray::OK);
-  }
-  if (query_sec > 0.0) text += rounded("\n%.0f us a query", 1e6 * query_sec);
+  // The text is below the organ, because most tools come from above, and would hide it there. At
+  // this distance, the organ does not hide it from a viewer who looks down at 40 degrees.
+  constexpr double kDistance = 0.28;  // The distance of the text from the organ's box.
   const Eigen::AlignedBox3d box = organ.mesh->box().cast<double>();
-  const auto lines = 1 + std::count(text.begin(), text.end(), '\n');
-  Vector3d place = box.center();  // The place of a text is its centre.
-  place.z() = box.max().z() + (kDistance + 0.5 * kLineSpacing * lines) * organ.size();
-  add_text({"status", organ.frame, failed ? colours::kFailure : colours::kText}, place,
-           organ.size(), text, picture);
+  Vector3d place = box.center();
+  place.z() = box.min().z() - kDistance * organ.size();
+  const auto add = [&](const std_msgs::ColorRGBA& colour, const std::string& line) {
+    place = add_text({"status", organ.frame, colour}, place, organ.size(), line, picture);
+  };
+  add(colours::kText, organ.name + ": " + counted(organ.mesh->face_count(), "face"));
+  for (std::size_t i = 0; i < organ.pairs.size(); ++i) {
+    const ScenePair& pair = organ.pairs[i];
+    // With many organs and tools, lines about far pairs would hide those about near ones.
+    if (scene.organs.size() > 1 && is_far(pair) && !fading[i]) continue;
+    const bool failed = pair.answer && pair.answer->status != ContactArray::OK;
+    add(failed ? colours::kFailure : colours::kText,
+        status_line((*scene.tools)[pair.tool].parameters.name, pair.answer, fading[i]));
+  }
+  // In milliseconds, because the font of RViz has no micro sign.
+  if (query_sec > 0.0) add(colours::kText, rounded("%.3f ms a query", 1e3 * query_sec));
 }
 
 }  // namespace organ_collision

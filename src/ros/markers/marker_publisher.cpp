@@ -86,8 +86,12 @@ void MarkerPainter::paint(const Scene& scene, const Publish& publish) {
   add_tools(scene, *picture);
   for (const SceneOrgan& organ : scene.organs) {
     add_touched(scene, organ, *picture);
-    for (const ScenePair& pair : organ.pairs) add_answer(scene, organ, pair, *picture);
-    add_status(scene, organ, mean_query_sec_, *picture);
+    std::vector<const SceneStep*> fading;
+    for (const ScenePair& pair : organ.pairs) {
+      fading.push_back(fading_step(scene, organ, pair));
+      add_answer(scene, organ, pair, fading.back(), *picture);
+    }
+    add_status(scene, organ, fading, mean_query_sec_, *picture);
   }
   for (const ProxyView& view : scene.proxies) add_proxy(view, *picture);
   delete_rest(scene, *picture);
@@ -201,21 +205,28 @@ void MarkerPainter::add_touched(const Scene& scene, const SceneOrgan& organ,
   add_marker(std::move(faces), picture);
 }
 
-/// Adds what the latest answer tells. If it has no contacts, the contacts of the last step that had
-/// any are shown, and fade.
-void MarkerPainter::add_answer(const Scene& scene, const SceneOrgan& organ, const ScenePair& pair,
-                               MarkerArray& picture) const {
-  const ToolParameters& tool = (*scene.tools)[pair.tool].parameters;
-  if (pair.answer) {
-    add_surroundings(organ, pair, tool.radius, picture);
-    if (!pair.answer->contacts.empty()) return add_contacts(organ, *pair.answer, 1.0, picture);
-  }
+/// The last step in which the tool touched the organ, while its contacts fade. Null if the latest
+/// answer has contacts.
+const SceneStep* MarkerPainter::fading_step(const Scene& scene, const SceneOrgan& organ,
+                                            const ScenePair& pair) const {
+  if (pair.answer && !pair.answer->contacts.empty()) return nullptr;
+  const std::string& tool = (*scene.tools)[pair.tool].parameters.name;
   const auto step = std::find_if(trail_.rbegin(), trail_.rend(), [&](const SceneStep& step) {
-    return is_about(step, organ) && step.answer->tool == tool.name &&
-           !step.answer->contacts.empty();
+    return is_about(step, organ) && step.answer->tool == tool && !step.answer->contacts.empty();
   });
-  if (step == trail_.rend()) return;
-  add_contacts(organ, *step->answer, visibility(step->time, scene.time), picture);
+  return step == trail_.rend() ? nullptr : &*step;
+}
+
+/// Adds what the latest answer tells, and the contacts that fade.
+void MarkerPainter::add_answer(const Scene& scene, const SceneOrgan& organ, const ScenePair& pair,
+                               const SceneStep* fading, MarkerArray& picture) const {
+  if (pair.answer) {
+    add_surroundings(organ, pair, (*scene.tools)[pair.tool].parameters.radius, picture);
+    add_contacts(organ, *pair.answer, 1.0, picture);
+  }
+  if (fading) {
+    add_contacts(organ, *fading->answer, visibility(fading->time, scene.time), picture);
+  }
 }
 
 /// Adds a DELETE for each marker that subscribers have, and that is neither in this picture nor

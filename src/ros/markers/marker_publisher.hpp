@@ -47,8 +47,10 @@ class MarkerPainter {
   void add_tools(const Scene& scene, visualization_msgs::MarkerArray& picture) const;
   void add_touched(const Scene& scene, const SceneOrgan& organ,
                    visualization_msgs::MarkerArray& picture) const;
+  const SceneStep* fading_step(const Scene& scene, const SceneOrgan& organ,
+                               const ScenePair& pair) const;
   void add_answer(const Scene& scene, const SceneOrgan& organ, const ScenePair& pair,
-                  visualization_msgs::MarkerArray& picture) const;
+                  const SceneStep* fading, visualization_msgs::MarkerArray& picture) const;
   void delete_rest(const Scene& scene, visualization_msgs::MarkerArray& picture);
 
   std::map<std::string, Surface> surfaces_;  ///< by the organ's name

@@ -126,6 +126,13 @@ Vector3d point(const Marker& marker, std::size_t index) {
   return to_eigen(marker.points.at(index));
 }
 
+/// What a reader sees: the texts of the markers, a line each.
+std::string text_of(const Markers& markers) {
+  std::string text;
+  for (const Marker& marker : markers) text += (text.empty() ? "" : "\n") + marker.text;
+  return text;
+}
+
 /// Keeps the markers as RViz does.
 class Viewer : public testing::Test {
  protected:
@@ -226,8 +233,8 @@ TEST_F(Painter, ShowsTheWholeScene) {
   for (std::size_t i = 0; i < 6; ++i) {
     EXPECT_EQ(point(surface, i), organ_.mesh->triangle(i / 3)[i % 3]) << i;
   }
-  EXPECT_EQ(shown("status").at(0).text,
-            "liver: 2 faces\nhook: 1 contact, 4.0 mm deep\n42 us a query");
+  EXPECT_EQ(text_of(shown("status")),
+            "liver: 2 faces\nhook: 1 contact, 4.0 mm deep\n0.042 ms a query");
 }
 
 TEST_F(Painter, TouchedFacesAreLiftedAndColouredByDepthAndFadeAfterTheContact) {
@@ -248,6 +255,18 @@ TEST_F(Painter, TouchedFacesAreLiftedAndColouredByDepthAndFadeAfterTheContact) {
   paint(scene);  // The latest answer still has the contact.
   EXPECT_EQ(namespaces(),
             (Names{"surface/liver", "tools", "touched", "normals", "names", "status"}));
+}
+
+TEST_F(Painter, NoLineSaysThatAToolTouchesNothingWhileItsFacesAreShown) {
+  paint(touching(0.0));
+  for (double seconds = 0.05; seconds < 1.0; seconds += 0.07) {
+    paint(resting(seconds));
+    const std::string text = text_of(shown("status"));
+    const bool glows = namespaces().count("touched") > 0;
+    EXPECT_EQ(glows, seconds < kFadeSec) << seconds;
+    EXPECT_EQ(text.find("hook: touched a moment ago") != std::string::npos, glows) << text;
+    EXPECT_EQ(text.find("hook: touches nothing") == std::string::npos, glows) << text;
+  }
 }
 
 TEST_F(Painter, TheDeeperOfTwoToolsColoursAFace) {
@@ -334,12 +353,11 @@ TEST_F(Painter, TheTimeOfAQueryChangesOnceASecond) {
     Scene scene = touching(seconds);
     scene.steps[0].query_sec = query_sec;
     paint(scene);
-    const std::string text = shown("status").at(0).text;
-    return text.substr(text.rfind('\n') + 1);
+    return shown("status").back().text;
   };
-  EXPECT_EQ(shown_at(0.0, 2e-6), "2 us a query");
-  EXPECT_EQ(shown_at(0.1, 5e-6), "2 us a query");
-  EXPECT_EQ(shown_at(1.2, 9e-6), "7 us a query");
+  EXPECT_EQ(shown_at(0.0, 2e-6), "0.002 ms a query");
+  EXPECT_EQ(shown_at(0.1, 5e-6), "0.002 ms a query");
+  EXPECT_EQ(shown_at(1.2, 9e-6), "0.007 ms a query");
 }
 
 TEST_F(Viewer, SeesDepthsThatGetDarkerAndAreClamped) {
@@ -385,11 +403,12 @@ TEST_F(Viewer, SeesTheNameOfEachTouchingLinkAtItsDeepestContact) {
   answer->contacts[2].link = 1;
   answer->links = {"wrist", "jaw"};
   Markers names = drawn(scene_with(answer), "names");
-  ASSERT_EQ(names.size(), 1u);
-  EXPECT_EQ(names[0].type, Marker::TEXT_VIEW_FACING);
-  EXPECT_EQ(names[0].text, "hook\njaw");  // The shaft has no name of its own.
-  EXPECT_DOUBLE_EQ(names[0].pose.position.x, 0.2);
-  EXPECT_GT(names[0].pose.position.z, 0.0);
+  EXPECT_EQ(text_of(names), "hook\njaw");  // The shaft has no name of its own.
+  for (const Marker& name : names) {
+    EXPECT_EQ(name.type, Marker::TEXT_VIEW_FACING);
+    EXPECT_DOUBLE_EQ(name.pose.position.x, 0.2) << "names near each other share a text";
+    EXPECT_GT(name.pose.position.z, 0.0);
+  }
   answer->contacts[2].on_organ.x = 0.9;
   names = drawn(scene_with(answer), "names");
   ASSERT_EQ(names.size(), 2u) << "names that are far from each other have their own texts";
@@ -470,17 +489,40 @@ TEST_F(Viewer, ReadsWhatTheAnswerTells) {
   for (const auto& [edit, line] : rows) {
     const auto answer = answer_with({});
     edit(*answer);
-    const Marker status = drawn(scene_with(answer), "status").at(0);
-    EXPECT_EQ(status.text, std::string("liver: 2 faces\nhook: ") + line);
-    EXPECT_EQ(status.color, answer->status == 0 ? colours::kText : colours::kFailure);
-    EXPECT_DOUBLE_EQ(status.pose.position.x, 0.5);
-    EXPECT_GT(status.pose.position.z, 0.0);
+    const Markers status = drawn(scene_with(answer), "status");
+    EXPECT_EQ(text_of(status), std::string("liver: 2 faces\nhook: ") + line);
+    EXPECT_EQ(status.at(0).color, colours::kText);
+    EXPECT_EQ(status.at(1).color, answer->status == 0 ? colours::kText : colours::kFailure);
   }
   Scene scene = scene_with(nullptr);
   scene.organs.push_back(square("kidney"));
-  EXPECT_EQ(drawn(scene, "status").at(0).text, "liver: 2 faces\nhook: no answer yet");
-  EXPECT_EQ(shown("status").at(1).text, "kidney: 2 faces");
-  EXPECT_EQ(shown("status").at(1).header.frame_id, "kidney_frame");
+  EXPECT_EQ(text_of(drawn(scene, "status")),
+            "liver: 2 faces\nhook: no answer yet\nkidney: 2 faces");
+  EXPECT_EQ(shown("status").at(2).header.frame_id, "kidney_frame");
+}
+
+TEST_F(Viewer, SeesTheStatusBelowTheOrganInLinesThatFitIntoTheWindow) {
+  const auto answer = answer_with({});
+  const std::string reason =
+      "a reason of many words, of which the last one goes on and on behind the edge of a window";
+  set_failure(*answer, ContactArray::NO_TRANSFORM, reason);
+  Scene scene = scene_with(answer);
+  scene.tools = std::make_shared<std::vector<Tool>>(1, shaft_tool(std::string(80, 'x'), 0.02));
+  const Markers lines = drawn(scene, "status");
+  ASSERT_GT(lines.size(), 3u);
+  std::string text;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    text += " " + lines[i].text;
+    // A word that is longer than a line stays whole.
+    if (lines[i].text.find("xx") == std::string::npos) EXPECT_LE(lines[i].text.size(), 64u);
+    EXPECT_DOUBLE_EQ(lines[i].pose.position.x, 0.5);
+    EXPECT_LT(lines[i].pose.position.z, -0.2 * kSize) << "tools come from above, and would hide it";
+    if (i == 0) continue;
+    const double lower = lines[i - 1].pose.position.z - lines[i].pose.position.z;
+    EXPECT_GT(lower, 1.2 * lines[i].scale.z);
+    EXPECT_LT(lower, 2.0 * lines[i].scale.z);
+  }
+  EXPECT_EQ(text, " liver: 2 faces " + std::string(80, 'x') + ": no transform: " + reason);
 }
 
 TEST_F(Viewer, ReadsOnlyOfNearToolsIfThereAreSeveralOrgans) {
@@ -488,15 +530,15 @@ TEST_F(Viewer, ReadsOnlyOfNearToolsIfThereAreSeveralOrgans) {
   answer->clearance.state = Clearance::BEYOND_MARGIN;
   Scene scene = scene_with(answer);
   scene.organs.push_back(square("kidney"));
-  EXPECT_EQ(drawn(scene, "status").at(0).text, "liver: 2 faces");
+  EXPECT_EQ(text_of(drawn(scene, "status")), "liver: 2 faces\nkidney: 2 faces");
   answer->placement.tip = ToolPlacement::INSIDE;
-  EXPECT_NE(drawn(scene, "status").at(0).text.find("hook: touches nothing"), std::string::npos);
+  EXPECT_NE(text_of(drawn(scene, "status")).find("hook: touches nothing"), std::string::npos);
   answer->placement.tip = ToolPlacement::OUTSIDE;
   answer->contacts = {contact_at(0, 0.001, 0.25, 0.5)};
-  EXPECT_NE(drawn(scene, "status").at(0).text.find("hook: 1 contact"), std::string::npos);
+  EXPECT_NE(text_of(drawn(scene, "status")).find("hook: 1 contact"), std::string::npos);
   answer->contacts.clear();
   answer->status = ContactArray::NO_TRANSFORM;
-  EXPECT_NE(drawn(scene, "status").at(0).text.find("hook: no transform"), std::string::npos);
+  EXPECT_NE(text_of(drawn(scene, "status")).find("hook: no transform"), std::string::npos);
 }
 
 namespace {

@@ -1,0 +1,46 @@
+#!/usr/bin/python3
+"""Draws cut.png: the demo, before and after the stabber has cut off the end of the lobe. Starts demo.launch, and takes
+pictures of the node's markers right after a stab.
+
+Usage: . devel/setup.bash && doc/figures/cut.py
+"""
+
+import os
+import tempfile
+
+from live_scene import HERE, NODE, Camera, StillMarkers, ros_master, snapshot, started, wait_until
+
+import style
+
+WHOLE = 1224  # faces of the liver
+SHOWN = {'surface/liver', 'tools', 'swept', 'touched'}  # namespaces of markers
+CAMERA = Camera((-40, 35), (0.055, 0.012, 0.010), 0.20, (800, 620))
+PICTURE = ['--frame', 'liver', '--topic', 'still', '--background', '#ffffff']
+
+
+def faces(markers, name_space):
+    return sum(len(marker.points) // 3 for marker in list(markers.markers.values()) if marker.ns == name_space)
+
+
+def main():
+    with ros_master('cut'), tempfile.TemporaryDirectory() as folder:
+        markers = StillMarkers(NODE + '/markers')
+        figure, panels = style.panels(2, 3.6)
+        with started('roslaunch', 'organ_collision', 'demo.launch', 'report:=false'):
+            for axes, is_cut, title in zip(panels, (False, True), ('Before the cut', 'After the cut')):
+                wait_until(lambda: markers.has(SHOWN) and (faces(markers, 'surface/liver') != WHOLE) == is_cut, title)
+                markers.markers = {key: marker for key, marker in markers.markers.items() if marker.ns in SHOWN}
+                # Both sides of a touched face are drawn.
+                counts = faces(markers, 'touched') // 2, faces(markers, 'surface/liver')
+                markers.still()
+                picture = os.path.join(folder, 'cut.png')
+                snapshot(picture, *CAMERA.options(), *PICTURE)
+                axes.imshow(style.plt.imread(picture), interpolation='lanczos')
+                axes.axis('off')
+                axes.set_title('%s: %d of %d faces touched' % (title, *counts), color=style.TEXT)
+        figure.tight_layout()
+        style.save_picture(figure, os.path.join(HERE, 'cut.png'))
+
+
+if __name__ == '__main__':
+    main()
