@@ -182,14 +182,12 @@ void HapticProxyNode::follow_hand(std::size_t tool, Time now) {
 
 /// The organs at `now`. Throws Rejection.
 ProxyScene HapticProxyNode::scene_at(Time now) {
-  const ros::Time ros_now = ros::Time::now();
   const bool interpolates = core_.parameters().organ_interpolation;
   const auto shape_of = [&](const DeformableOrgan& organ) {
-    return interpolates ? std::pair(shapes_.shape(organ, now), shapes_.motion(organ, now))
-                        : latest_shape(organ, ros_now);
+    return interpolates ? shapes_.shape(organ, now) : organ.latest().mesh;
   };
-  return proxy_scene(inbox_.organs, inbox_.transforms, frame_.name(), age_limits(), ros_now,
-                     shape_of);
+  return proxy_scene(inbox_.organs, inbox_.transforms, frame_.name(), age_limits(),
+                     ros::Time::now(), shape_of);
 }
 
 /// The latest pose of the tool's hand. Throws Rejection if it is not known.

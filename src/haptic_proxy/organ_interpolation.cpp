@@ -36,13 +36,6 @@ std::shared_ptr<const TriangleMesh> OrganInterpolation::shape(const DeformableOr
   return way == ways_.end() ? organ.latest().mesh : shape_on(way->second, now);
 }
 
-TissueMotion OrganInterpolation::motion(const DeformableOrgan& organ, Time now) const {
-  const auto way = ways_.find(organ.name());
-  if (way == ways_.end() || way->second.share(now) == 1.0) return {};
-  // The whole way, as if the shape were at its end: only the difference of both shapes counts.
-  return {way->second.from, way->second.to, way->second.seconds};
-}
-
 bool OrganInterpolation::is_moving(Time now) const {
   return std::any_of(ways_.begin(), ways_.end(),
                      [&](const auto& way) { return way.second.share(now) < 1.0; });

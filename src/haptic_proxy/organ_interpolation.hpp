@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "proxy_scene.hpp"
 #include "ros/organs/organ_registry.hpp"
 
 namespace organ_collision {
 
 /// Moves organs from shape to shape over the time between shapes, one such time late, so that
 /// shapes that come at 60 Hz do not push a hand sixty times a second. An organ begins each way
-/// where it is, and rests when it has arrived. New triangles are there at once.
+/// where it is, and rests when it has arrived. New triangles are there at once. The velocity of the
+/// tissue is OrganShape::moves_from(), as without interpolation.
 class OrganInterpolation {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -29,8 +29,6 @@ class OrganInterpolation {
   void update(const OrganRegistry& organs, Time now);
   /// The shape of an organ at `now`.
   std::shared_ptr<const TriangleMesh> shape(const DeformableOrgan& organ, Time now);
-  /// How this shape moves.
-  TissueMotion motion(const DeformableOrgan& organ, Time now) const;
   /// Whether a shape is on its way.
   bool is_moving(Time now) const;
 

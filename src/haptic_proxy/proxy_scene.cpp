@@ -54,39 +54,73 @@ std::string oldest_between(const TransformBuffer& transforms, const std::string&
   return of_a ? of_a->frame : a;
 }
 
-/// [s] The interval over which the velocity of an organ's frame is measured.
-constexpr double kFrameInterval = 0.01;
-/// [1] A shape moves until the next one comes, but for at most so many times the time between the
-/// last two shapes.
-constexpr double kLongestMotion = 2.0;
+/// [1] The least lever of a place near the trocar.
+constexpr double kLeastLever = 0.1;
+
+TissueMotion motion_of(const DeformableOrgan& organ, ros::Time now) {
+  const OrganShape& latest = organ.latest();
+  return {latest.moves_from(now), latest.mesh, latest.motion_sec};
+}
+
+/// [m] How far a point of a face has moved with an organ, in the proxy's frame.
+Vector3d way_of(const std::vector<ProxyOrgan>& before, const ProxyOrgan& now, std::uint32_t face,
+                const Vector3d& barycentric) {
+  const auto then = std::find_if(before.begin(), before.end(),
+                                 [&](const auto& organ) { return organ.name == now.name; });
+  if (then == before.end() || then->shape->topology() != now.shape->topology() ||
+      !then->shape->same_faces(*now.shape)) {
+    return Vector3d::Zero();
+  }
+  const auto place = [&](const ProxyOrgan& organ) -> Vector3d {
+    return organ.T_organ_proxy.inverse() * point_at(organ.shape->triangle(face), barycentric);
+  };
+  return place(now) - place(*then);
+}
 
 }  // namespace
-
-std::pair<std::shared_ptr<const TriangleMesh>, TissueMotion> latest_shape(
-    const DeformableOrgan& organ, ros::Time now) {
-  const OrganShape &latest = organ.latest(), &previous = organ.previous();
-  if (!previous.mesh) return {latest.mesh, {}};
-  const bool have_stamps = !latest.stamp.isZero() && !previous.stamp.isZero();
-  const double before = (have_stamps ? previous.stamp : previous.received).toSec();
-  const double seconds = (have_stamps ? latest.stamp : latest.received).toSec() - before;
-  if (!(seconds > 0.0) || latest.age(now) > kLongestMotion * seconds) return {latest.mesh, {}};
-  return {latest.mesh, {previous.mesh, latest.mesh, seconds}};
-}
 
 Vector3d tissue_velocity(const ProxyScene& scene, std::size_t organ, const FaceContact& contact) {
   const ProxyOrgan& now = scene.organs[organ];
   const TissueMotion& motion = scene.motions[organ];
   Vector3d velocity = Vector3d::Zero();
   if (motion.shape_before) {
-    const Vector3d way = point_at(motion.shape_after->triangle(contact.face), contact.barycentric) -
-                         point_at(motion.shape_before->triangle(contact.face), contact.barycentric);
-    velocity += now.T_organ_proxy.linear().transpose() * way / motion.shape_sec;
+    velocity += now.T_organ_proxy.linear().transpose() *
+                velocity_between(*motion.shape_before, *motion.shape_after, motion.shape_sec,
+                                 contact.face, contact.barycentric);
   }
   if (motion.T_before) {
     const Vector3d before = motion.T_before->inverse() * (now.T_organ_proxy * contact.point);
-    velocity += (contact.point - before) / motion.frame_sec;
+    velocity += (contact.point - before) / kVelocitySec;
   }
   return velocity;
+}
+
+TissuePush tissue_push(const ProxyScene& scene, const std::vector<ProxyOrgan>& before,
+                       const ProxyAnswer& answer, bool has_levers) {
+  TissuePush push;
+  double sum = 0.0;
+  const auto add = [&](std::size_t organ, const FaceContact& at, const Vector3d& load) {
+    if (load.isZero(0.0)) return;
+    const Vector3d along = load.normalized();
+    const double lever = has_levers && at.link == kShaft ? std::max(at.shaft, kLeastLever) : 1.0;
+    const Vector3d weighted = load / lever;
+    push.way += along.dot(way_of(before, scene.organs[organ], at.face, at.barycentric)) * weighted;
+    push.velocity += along.dot(tissue_velocity(scene, organ, at)) * weighted;
+    sum += load.norm();
+  };
+  for (const ProxyFace& at : answer.contacts) {
+    add(at.organ, at.contact, at.load * at.contact.normal);
+  }
+  for (const ProxyCrossing& at : answer.crossings) {
+    FaceContact place;
+    place.face = at.face;
+    place.barycentric = at.barycentric;
+    place.shaft = at.shaft;
+    place.point = at.point;
+    add(at.organ, place, at.load);
+  }
+  if (sum > 0.0) push = {push.way / sum, push.velocity / sum};
+  return push;
 }
 
 bool ProxyFrame::update(const OrganRegistry& organs) {
@@ -125,17 +159,16 @@ ProxyScene proxy_scene(const OrganRegistry& organs, const TransformBuffer& trans
           now);
     }
     scene.stamps.push_back(T_organ_proxy.found->stamp);
-    auto [shape, motion] = shape_of(organ);
     scene.organs.push_back(
-        {name, std::move(shape), organ.latest().topology(), T_organ_proxy.found->value});
+        {name, shape_of(organ), organ.latest().topology(), T_organ_proxy.found->value});
     scene.sources.push_back(&organ);
-    if (T_organ_proxy.found->stamp.toSec() > kFrameInterval) {
-      const ros::Time before = T_organ_proxy.found->stamp - ros::Duration(kFrameInterval);
+    TissueMotion& motion = scene.motions.emplace_back(motion_of(organ, now));
+    const ros::Time stamp = T_organ_proxy.found->stamp;
+    if (stamp.toSec() > kVelocitySec && transforms.goes_on(organ.frame(), {frame}, stamp, now)) {
+      const ros::Time before = stamp - ros::Duration(kVelocitySec);
       const auto T_before = look_up(transforms, organ.frame(), frame, before);
       if (T_before.found) motion.T_before = T_before.found->value;
-      motion.frame_sec = kFrameInterval;
     }
-    scene.motions.push_back(std::move(motion));
   }
   return scene;
 }

@@ -36,11 +36,10 @@ class ProxyFrame {
 
 /// How an organ moves, from its last two shapes and from TF.
 struct TissueMotion {
-  /// Two shapes, the later one last. Null: the shape rests.
+  /// The latest shape, and OrganShape::moves_from(). Null: the shape rests.
   std::shared_ptr<const TriangleMesh> shape_before = nullptr, shape_after = nullptr;
   double shape_sec = 0.0;                          ///< [s] between both shapes
-  std::optional<Eigen::Isometry3d> T_before = {};  ///< T_organ_proxy some time ago; empty: it rests
-  double frame_sec = 0.0;                          ///< [s] since then
+  std::optional<Eigen::Isometry3d> T_before = {};  ///< T_organ_proxy kVelocitySec ago; empty: rests
 };
 
 /// All organs as one tick of a proxy takes them.
@@ -58,6 +57,19 @@ struct ProxyScene {
 Eigen::Vector3d tissue_velocity(const ProxyScene& scene, std::size_t organ,
                                 const FaceContact& contact);
 
+/// What tissue does to a proxy that it holds: the mean over all places that bear a load, along
+/// these loads and weighted by them. In the proxy's frame, at the centre or the tip of the tool.
+struct TissuePush {
+  Eigen::Vector3d way = Eigen::Vector3d::Zero();       ///< [m] since the organs were as before
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s]
+};
+
+/// `before`: the organs at the tick before; of new organs and triangles, there is no way.
+/// `has_levers`: a place of the shaft moves the tip more than itself, as by a lever about the
+/// trocar.
+TissuePush tissue_push(const ProxyScene& scene, const std::vector<ProxyOrgan>& before,
+                       const ProxyAnswer& answer, bool has_levers);
+
 /// The greatest age of what is known of organs [s of ROS time]. 0 means no limit.
 struct AgeLimits {
   double mesh_sec = 0.0;   ///< of their shapes, and of their frames
@@ -67,13 +79,8 @@ struct AgeLimits {
 /// The reason that is given if there is no organ.
 Rejection no_organ();
 
-/// The shape of an organ in a tick, and how it moves.
-using ShapeOf = std::function<std::pair<std::shared_ptr<const TriangleMesh>, TissueMotion>(
-    const DeformableOrgan&)>;
-
-/// The latest shape of an organ, and the motion from the shape before.
-std::pair<std::shared_ptr<const TriangleMesh>, TissueMotion> latest_shape(
-    const DeformableOrgan& organ, ros::Time now);
+/// The shape of an organ in a tick.
+using ShapeOf = std::function<std::shared_ptr<const TriangleMesh>(const DeformableOrgan&)>;
 
 /// The organs with the shapes that `shape_of` tells, at their latest poses in `frame`. They are
 /// valid as long as the registry does not change. Throws Rejection if there is no organ, if an

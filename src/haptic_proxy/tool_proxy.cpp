@@ -50,7 +50,7 @@ ProxyReport ToolProxy::follow(const Timed<ToolPose>& hand, const ProxyScene& sce
     throw Rejection(ContactArray::INVALID_REQUEST, "no proxy", answer.message);
   }
   const ros::Time stamp = hand.stamp.isZero() ? ros::Time::now() : hand.stamp;
-  const LimitedForces forces = limited_forces(answer, scene, damping(answer, stamp));
+  const LimitedForces forces = limited_forces(answer, scene, damping(answer, scene, stamp));
   is_lost_ = false;
   hand_ = hand.value;
   answer_ = &answer;
@@ -118,13 +118,21 @@ void ToolProxy::set_forces(ProxyReport& report, const LimitedForces& target, Tim
 
 /// The damping force on the hand [N]. It is at most as large as the spring's force, so that it
 /// never reverses that force: tissue only pushes.
-Vector3d ToolProxy::damping(const ProxyAnswer& answer, ros::Time stamp) {
+Vector3d ToolProxy::damping(const ProxyAnswer& answer, const ProxyScene& scene, ros::Time stamp) {
   if (answer.is_placed_anew) velocity_ = {};
-  // Where a needle pierces a face, the pull falls at once.
+  // Tissue that comes in shapes moves the proxy by jumps. Its velocity counts instead of its way.
+  const bool has_levers = tool_.freedom == ProxyFreedom::kTrocar;
+  const TissuePush push = tissue_push(scene, organs_, answer, has_levers);
+  organs_ = scene.organs;
+  pushed_ += push.way;
+  // Where a needle pierces a face, the pull falls at once. Where tissue jumps onto a free proxy,
+  // only a part of its way moves the proxy.
   const std::size_t before = std::exchange(crossings_, answer.crossings.size());
-  const bool leaps = before != crossings_;
+  const bool was_held = std::exchange(is_held_, answer.state != ProxyStatus::kFree);
+  const bool leaps = before != crossings_ || !was_held;
   // The pull points from the hand to the proxy. Its change therefore opposes the hand's motion.
-  const Vector3d force = parameters_.damping * velocity_.update(answer.pull, stamp, leaps);
+  const Vector3d velocity = velocity_.update(answer.pull - pushed_, stamp, leaps) + push.velocity;
+  const Vector3d force = parameters_.damping * velocity;
   return share_within_limit(force, parameters_.stiffness * answer.pull.norm()) * force;
 }
 

@@ -108,7 +108,7 @@ class ToolProxy {
 
   LimitedForces limited_forces(const ProxyAnswer& answer, const ProxyScene& scene,
                                const Eigen::Vector3d& damping_force) const;
-  Eigen::Vector3d damping(const ProxyAnswer& answer, ros::Time stamp);
+  Eigen::Vector3d damping(const ProxyAnswer& answer, const ProxyScene& scene, ros::Time stamp);
   void set_forces(ProxyReport& report, const LimitedForces& target, Time now);
 
   ToolParameters tool_;
@@ -121,8 +121,11 @@ class ToolProxy {
   double size_ = 0.0;                    ///< [m] of a free tool in the last answer; else 0
   std::string frame_;                    ///< the frame of the published forces, hand_ and held_
   std::optional<ToolPose> hand_, held_;  ///< the last poses of the hand and the proxy
-  PullVelocity velocity_;                ///< of the proxy relative to the hand
-  std::size_t crossings_ = 0;            ///< how many faces the proxy had pierced at the last tick
+  PullVelocity velocity_;                ///< of the proxy relative to the hand, in resting tissue
+  std::vector<ProxyOrgan> organs_;       ///< at the last tick
+  Eigen::Vector3d pushed_ = Eigen::Vector3d::Zero();  ///< [m] sum of TissuePush::way
+  bool is_held_ = false;       ///< whether tissue held the proxy at the last tick
+  std::size_t crossings_ = 0;  ///< how many faces the proxy had pierced at the last tick
 };
 
 }  // namespace organ_collision

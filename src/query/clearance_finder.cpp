@@ -47,7 +47,9 @@ ToolClearance ClearanceFinder::find(const Step& step, const CollisionRequest& re
     clearance.on_tool = contact.point - end->distance * contact.normal;
     clearance.normal = contact.normal;
     clearance.normal_defined = end->closest.closest.distance > tolerance::kPierced;
-    clearance.closing = closing(step, *end, contact.normal);
+    if (request.pose_before && request.mode != QueryMode::kStatic) {
+      clearance.closing_speed = closing_speed(at_end, request, *end, contact.normal);
+    }
     set_least(step, request, contacts, clearance);
   }
   if (budget_.cuts() > 0) clearance.is_resolved = false;
@@ -114,25 +116,25 @@ void ClearanceFinder::find_near(const Step& step, const CollisionRequest& reques
       static_cast<std::size_t>(std::count(places_.begin(), places_.end(), kUnresolved));
 }
 
-/// ToolClearance::closing. `end`: the nearest approach at the end of the step. `normal`: from the
-/// tool to the organ. The smallest distance changes as the distance of the two points that are
+/// ToolClearance::closing_speed. `end`: the nearest approach at the end of the step. `normal`: from
+/// the tool to the organ. The smallest distance changes as the distance of the two points that are
 /// nearest now, if they move with the tool and with the organ (Danskin's theorem).
-double ClearanceFinder::closing(const Step& step, const Approach& end, const Vector3d& normal) {
+double ClearanceFinder::closing_speed(const Step& at_end, const CollisionRequest& request,
+                                      const Approach& end, const Vector3d& normal) {
   const ClosestPoints& closest = end.closest.closest;
-  const LegSpan last = step.span_of(step.leg_count() - 1);
-  const FaceLeg face = step.face_leg(last.begin, end.face);
-  Vector3d way = point_at(face.motion.start, closest.barycentric) -
-                 point_at(face.motion.end, closest.barycentric);
+  Vector3d velocity = -tissue_velocity(request, end.face, closest.barycentric);
+  const ToolPose& before = *request.pose_before;
+  Vector3d way;
   if (!end.part.shape) {
-    const ShaftMotion shaft = step.shaft_motion(last);
-    way += shaft.end.at(closest.shaft) - shaft.start.at(closest.shaft);
+    way = at_end.shaft_end().axis.at(closest.shaft) - before.axis.at(closest.shaft);
   } else {
-    const RigidMotion link = step.link_motion(last, end.part.link);
+    const RigidMotion link(before.links[end.part.link], at_end.link_end(end.part.link).pose);
     const Vector3d arm = closest.on_core - link.end().translation();
-    way += link.end().translation() - link.start().translation() +
-           link.angle() * link.axis().cross(arm);
+    way = link.end().translation() - link.start().translation() +
+          link.angle() * link.axis().cross(arm);
   }
-  return normal.dot(way) / (face.finish - face.begin);
+  velocity += way / request.pose_before_sec;
+  return normal.dot(velocity);
 }
 
 /// The contact whose fields describe an approach, as if it were a first touch.

@@ -115,6 +115,9 @@ void CollisionQuery::State::evaluate(const CollisionRequest& request, CollisionR
     result.clearance = clearance.find(step, request, result.contacts);
   }
   if (request.max_near > 0) clearance.find_near(step, request, result);
+  for (std::vector<FaceContact>* faces : {&result.contacts, &result.near}) {
+    for (FaceContact& at : *faces) at.velocity = tissue_velocity(request, at.face, at.barycentric);
+  }
   if (request.placement) placement.find(request, result.placement);
 }
 

@@ -27,33 +27,37 @@ void check_point(const Eigen::Vector3d& point, const Parts&... name) {
          "); must be finite and within ", tolerance::kFarthest, " m");
 }
 
-void check_links(const std::vector<Link>& links, const ToolWaypoint& waypoint, std::size_t index) {
-  if (waypoint.links.size() != links.size()) {
-    refuse("waypoint ", index, " has poses of ", waypoint.links.size(), " links; the tool has ",
-           links.size());
+/// Checks the poses of all links. `of`: the parts of the name of what has them.
+template <typename... Parts>
+void check_links(const std::vector<Link>& links, const std::vector<Eigen::Isometry3d>& poses,
+                 const Parts&... of) {
+  if (poses.size() != links.size()) {
+    refuse(of..., " has poses of ", poses.size(), " links; the tool has ", links.size());
   }
   for (std::size_t i = 0; i < links.size(); ++i) {
-    const Eigen::Isometry3d& pose = waypoint.links[i];
-    check_point(pose.translation(), links[i].name, " of waypoint ", index);
-    const Eigen::Matrix3d& rotation = pose.linear();
+    check_point(poses[i].translation(), links[i].name, " of ", of...);
+    const Eigen::Matrix3d& rotation = poses[i].linear();
     if (!(rotation * rotation.transpose()).isIdentity(kRotationTolerance) ||
         !(rotation.determinant() > 0.0)) {
-      refuse("the orientation of ", links[i].name, " of waypoint ", index, " has the determinant ",
+      refuse("the orientation of ", links[i].name, " of ", of..., " has the determinant ",
              rotation.determinant(), "; must be a rotation: orthonormal within ",
              kRotationTolerance, ", right-handed");
     }
   }
 }
 
+template <typename... Parts>
+void check_axis(const ShaftAxis& axis, const Parts&... of) {
+  check_point(axis.trocar, "trocar of ", of...);
+  check_point(axis.tip, "tip of ", of...);
+}
+
 void check_path(const CollisionRequest& request) {
   const ToolPath& path = request.path;
   if (path.empty()) refuse("the tool's path is empty; it has at least one waypoint");
   for (std::size_t i = 0; i < path.size(); ++i) {
-    if (request.radius > 0.0) {
-      check_point(path[i].axis.trocar, "trocar of waypoint ", i);
-      check_point(path[i].axis.tip, "tip of waypoint ", i);
-    }
-    if (request.links) check_links(*request.links, path[i], i);
+    if (request.radius > 0.0) check_axis(path[i].axis, "waypoint ", i);
+    if (request.links) check_links(*request.links, path[i].links, "waypoint ", i);
     if (path[i].links.size() != path[0].links.size()) {
       refuse("waypoint ", i, " has poses of ", path[i].links.size(),
              " links, and the first one of ", path[0].links.size());
@@ -93,6 +97,25 @@ void check_clearance(const CollisionRequest& request) {
   }
 }
 
+void check_seconds(double seconds, const char* name) {
+  if (std::isfinite(seconds) && seconds > 0.0) return;
+  refuse(name, " is ", seconds, " s; must be positive and finite");
+}
+
+void check_velocities(const CollisionRequest& request) {
+  if (const TriangleMesh* const from = request.velocity_from) {
+    check_seconds(request.velocity_sec, "velocity_sec");
+    if (!from->same_faces(*request.organ)) {
+      refuse("the shape from which velocities count has ", from->face_count(),
+             " other faces than the present one, which has ", request.organ->face_count());
+    }
+  }
+  if (!request.pose_before) return;
+  check_seconds(request.pose_before_sec, "pose_before_sec");
+  if (request.radius > 0.0) check_axis(request.pose_before->axis, "pose_before");
+  if (request.links) check_links(*request.links, request.pose_before->links, "pose_before");
+}
+
 void check_placement(const CollisionRequest& request) {
   if (is_paper_mode(request.mode)) refuse("placement is asked for; the paper's modes have none");
   const SurfaceTopology* const topology = request.surface_topology;
@@ -123,6 +146,7 @@ void check(const CollisionRequest& request) {
     refuse("the organ's earlier shape has ", request.organ_before->face_count(),
            " other faces than the present one, which has ", request.organ->face_count());
   }
+  check_velocities(request);
   if (request.placement) check_placement(request);
 }
 

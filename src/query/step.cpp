@@ -217,4 +217,17 @@ FaceLeg Step::face_leg(std::size_t leg, std::uint32_t face) const {
           organ_.triangle(corners)};
 }
 
+Eigen::Vector3d velocity_between(const TriangleMesh& from, const TriangleMesh& to, double seconds,
+                                 std::uint32_t face, const Eigen::Vector3d& barycentric) {
+  return (point_at(to.triangle(face), barycentric) - point_at(from.triangle(face), barycentric)) /
+         seconds;
+}
+
+Eigen::Vector3d tissue_velocity(const CollisionRequest& request, std::uint32_t face,
+                                const Eigen::Vector3d& barycentric) {
+  if (!request.velocity_from) return Eigen::Vector3d::Zero();
+  return velocity_between(*request.velocity_from, *request.organ, request.velocity_sec, face,
+                          barycentric);
+}
+
 }  // namespace organ_collision

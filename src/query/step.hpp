@@ -148,6 +148,10 @@ struct ToolPart {
   }
 };
 
+/// The velocity [m/s] of the tissue at a point of a face, as CollisionRequest::velocity_from says.
+Eigen::Vector3d tissue_velocity(const CollisionRequest& request, std::uint32_t face,
+                                const Eigen::Vector3d& barycentric);
+
 /// Calls use(part_leg), where part_leg is the part as it moves along the chord of a span. part_leg
 /// refers to a motion that lives only during the call.
 template <typename Use>

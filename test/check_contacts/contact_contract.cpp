@@ -159,6 +159,7 @@ class AnswerCheck {
       check_share(place, "shaft", contact.shaft);
       check_finite(place, "point", point);
       check_finite(place, "on_organ", end);
+      check_finite(place, "velocity", to_eigen(contact.velocity));
       check_finite(place, "depth", contact.depth);
       check_unit(place, to_eigen(contact.normal));
       const Vector3d on_tool = to_eigen(contact.on_tool);

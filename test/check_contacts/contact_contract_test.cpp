@@ -210,6 +210,8 @@ TEST(AnswerRulesTest, EachFlawBreaksItsRuleAndNoOther) {
       {"places on tools, static answers",
        [](auto& a) { a = good_static_answer(), a.near[1].on_organ.x = 0.5; }},
       {"finite numbers", [](auto& a) { a.near[0].on_organ.x = kNan; }},
+      {"finite numbers", [](auto& a) { a.contacts[1].velocity.y = kNan; }},
+      {"finite numbers", [](auto& a) { a.near[0].velocity.z = kInfinity; }},
       {"order of near faces", [](auto& a) { set_depth(a.near[0], -0.003); }},
       {"near faces", [](auto& a) { a.near[0].face = 2; }},
       {"near faces", [](auto& a) { a.near[0].face = 7; }},

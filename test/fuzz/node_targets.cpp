@@ -266,7 +266,7 @@ class ProxyNode {
       const ros::Time now(50);
       const ProxyScene scene =
           proxy_scene(organs_, transforms_, frame_.name(), {}, now,
-                      [&](const DeformableOrgan& organ) { return latest_shape(organ, now); });
+                      [](const DeformableOrgan& organ) { return organ.latest().mesh; });
       ProxyReport report = hand_.proxy.follow(*pose.found, scene, hand_.now);
       report.scene = nullptr;  // It ends here.
       return report;

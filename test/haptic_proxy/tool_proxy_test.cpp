@@ -17,6 +17,8 @@
 #include "haptic_proxy/proxy_publisher.hpp"
 #include "ros/messages/conversions.hpp"
 #include "ros/messages/failure_log.hpp"
+#include "ros/motion/transform_buffer.hpp"
+#include "ros/organs/organ_registry.hpp"
 #include "test/refusals.hpp"
 #include "test/ros/tools/hand_made_tools.hpp"
 
@@ -298,27 +300,46 @@ TEST_F(ToolProxyTest, AStateHasTheNearestPlaceOfEachPatchWithItsForce) {
   EXPECT_TRUE(places_of(follow(proxy, kRadius + 3.0 * parameters_.clearance)).empty());
 }
 
-// Tissue rises by 31 mm/s against a hand that rests, in shapes at 60 Hz.
-TEST_F(ToolProxyTest, InterpolatedTissueMovesTheHandInSmallSteps) {
+/// Tissue rises by 31 mm/s from 10 mm below a hand, in shapes at 60 Hz.
+class RisingTissueTest : public ToolProxyTest {
+ protected:
+  void begin() {
+    organs_ = OrganRegistry({1000});
+    shapes_ = {};
+  }
+
+  /// The ticks are 1 ms apart.
+  ProxyReport follow_in_tissue(ToolProxy& proxy, int tick, double hand, bool interpolates) {
+    const ros::Time now = ros::Time(50) + ros::Duration(1e-3 * tick);
+    if (tick * 60 / 1000 != (tick - 1) * 60 / 1000 || tick == 0) {
+      const auto height = static_cast<float>(kSpeed * 1e-3 * tick - 0.01);
+      const auto next = boost::make_shared<OrganMesh>();
+      next->organ = next->header.frame_id = "liver";
+      next->header.stamp = now;
+      next->triangles = {0, 1, 2};
+      next->vertices = {-0.3F, -0.2F, height, 0.3F, -0.2F, height, 0.0F, 0.4F, height};
+      organs_.apply(next, now);
+      shapes_.update(organs_, now_);
+    }
+    scene_ = proxy_scene(organs_, transforms_, "liver", {}, now, [&](const auto& organ) {
+      return interpolates ? shapes_.shape(organ, now_) : organ.latest().mesh;
+    });
+    return follow(proxy, hand, 1.0);
+  }
+
+  static constexpr double kSpeed = 0.031;  // [m/s]
+  OrganRegistry organs_{MeshLimits{1000}};
+  OrganInterpolation shapes_;
+  TransformBuffer transforms_;
+};
+
+TEST_F(RisingTissueTest, InterpolatedMovesTheHandInSmallSteps) {
   for (const bool interpolates : {false, true}) {
-    OrganRegistry organs({1000});
-    OrganInterpolation shapes;
-    const auto message = boost::make_shared<OrganMesh>();
-    message->organ = message->header.frame_id = "liver";
-    message->triangles = {0, 1, 2};
     ToolProxy proxy(tool_, parameters_);
+    begin();
     double last = 0.0, greatest = 0.0;
     for (int tick = 0; tick < 400; ++tick) {
-      if (tick * 60 / 1000 != (tick - 1) * 60 / 1000 || tick == 0) {
-        const auto height = static_cast<float>(0.031e-3 * tick - 0.01);
-        const auto next = boost::make_shared<OrganMesh>(*message);
-        next->vertices = {-0.3F, -0.2F, height, 0.3F, -0.2F, height, 0.0F, 0.4F, height};
-        organs.apply(next, ros::Time(1));
-        shapes.update(organs, now_);
-      }
-      scene_.organs[0].shape =
-          interpolates ? shapes.shape(organs.at("liver"), now_) : organs.at("liver").latest().mesh;
-      const ProxyReport report = follow(proxy, 0.0, 1.0);
+      const ProxyReport report = follow_in_tissue(proxy, tick, 0.0, interpolates);
       if (tick > 200) greatest = std::max(greatest, std::abs(force(report) - last));
       last = force(report);
     }
@@ -327,6 +348,33 @@ TEST_F(ToolProxyTest, InterpolatedTissueMovesTheHandInSmallSteps) {
       EXPECT_LT(greatest, 0.016);
     } else {
       EXPECT_GT(greatest, 0.14);
+    }
+  }
+}
+
+// Also between shapes, against a hand that rests, goes with the tissue, or comes towards it.
+TEST_F(RisingTissueTest, IsDampedByItsSpeedRelativeToTheHand) {
+  parameters_.damping = 8.0;
+  for (const bool interpolates : {false, true}) {
+    for (const double hand : {0.0, kSpeed, -0.02}) {
+      SCOPED_TRACE(testing::Message() << interpolates << ' ' << hand);
+      ToolProxy proxy(tool_, parameters_);
+      begin();
+      const double expected = parameters_.damping * (kSpeed - hand);
+      double least = 1e3, greatest = -1e3;
+      for (int tick = 0; tick < 400; ++tick) {
+        const double height = -0.012 + hand * 1e-3 * tick;
+        const ProxyReport report = follow_in_tissue(proxy, tick, height, interpolates);
+        if (tick < 100) continue;
+        const double spring = parameters_.stiffness * report.answer->pull.norm();
+        least = std::min(least, force(report) - spring);
+        greatest = std::max(greatest, force(report) - spring);
+        const std::vector<ProxyContact> places = places_of(report);
+        ASSERT_FALSE(places.empty());
+        EXPECT_NEAR(places[0].velocity.z, kSpeed, 0.05 * kSpeed);
+      }
+      EXPECT_NEAR(least, expected, 0.05 * parameters_.damping * kSpeed);
+      EXPECT_NEAR(greatest, expected, 0.05 * parameters_.damping * kSpeed);
     }
   }
 }

@@ -262,6 +262,22 @@ TEST_F(Refusals, NameWhatIsWrongWithAShaft) {
       {"from fraction 0.1", [](Request& r) { r.path[0].fraction = 0.1; }},
       {"mode is 7", [](Request& r) { r.mode = static_cast<QueryMode>(7); }},
       {"earlier shape", [this](Request& r) { r.organ_before = &other_; }},
+      {"from which velocities count",
+       [this](Request& r) {
+         r.velocity_from = &other_;
+         r.velocity_sec = 0.1;
+       }},
+      {"velocity_sec is 0", [this](Request& r) { r.velocity_from = &organ_; }},
+      {"pose_before_sec is nan",
+       [&](Request& r) {
+         r.pose_before = ToolPose{axis};
+         r.pose_before_sec = kNan;
+       }},
+      {"tip of pose_before",
+       [&](Request& r) {
+         r.pose_before = ToolPose{{axis.trocar, {0.0, kNan, 0.0}}};
+         r.pose_before_sec = 0.1;
+       }},
       {"margin is -0.1", [](Request& r) { r.margin = -0.1; }},
       {"margin is nan", [](Request& r) { r.margin = kNan; }},
       {"max_near is 3", [](Request& r) { r.max_near = 3; }},
@@ -304,6 +320,11 @@ TEST_F(Refusals, NameWhatIsWrongWithALink) {
       {"must be a rotation", [&](Request& r) { pose(r).linear() *= 1.001; }},
       {"must be a rotation", [&](Request& r) { pose(r).linear().col(0) *= -1.0; }},
       {"must be a rotation", [&](Request& r) { pose(r).linear().setZero(); }},
+      {"pose_before has poses of 0 links",
+       [](Request& r) {
+         r.pose_before = ToolPose{};
+         r.pose_before_sec = 0.1;
+       }},
       {"radius is -0.001", [](Request& r) { r.radius = -1e-3; }},
       {"radius is nan", [](Request& r) { r.radius = kNan; }},
       {"need a shaft", [](Request& r) { r.mode = QueryMode::kPaperStatic; }},

@@ -58,10 +58,10 @@ struct ToolClearance {
   /// False if core and face meet to within tolerance::kPierced. `normal` is then the face's normal
   /// or its opposite, as in FaceContact.
   bool normal_defined = false;
-  /// [m] How fast `distance` shrinks at the end of the step, by the motion of the tool and the
-  /// organ at the two points: the speed [m/s] times the duration of the step [s]. Negative: the
-  /// distance grows. 0 in a static query.
-  double closing = 0.0;
+  /// [m/s] How fast `distance` shrinks at the end of the step, if the two points move as
+  /// CollisionRequest::velocity_from and pose_before say. Negative: it grows. 0 in a static query,
+  /// and without pose_before.
+  double closing_speed = 0.0;
   /// False if the query reached its work limit before it had measured all faces: `distance` and
   /// `least` are then upper bounds. Also false if the first touch is an unresolved contact: `least`
   /// is then 0, but the tool may not touch at all.

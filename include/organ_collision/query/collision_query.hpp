@@ -32,6 +32,11 @@ struct CollisionRequest {
   /// The organ's shape at the start of the step, with the same faces. Each vertex moves linearly
   /// to its place in `organ`. Null: the organ rests. Static and paper modes ignore it.
   const TriangleMesh* organ_before = nullptr;
+  /// An earlier shape, with the same faces, and the time [s] from it to `organ`. The velocities in
+  /// the answer are those of this motion, which may be longer or shorter than the step. Null: the
+  /// tissue rests.
+  const TriangleMesh* velocity_from = nullptr;
+  double velocity_sec = 0.0;
   /// How the tool moved. Static modes look only at the last waypoint.
   ToolPath path;
   /// [m] The radius of the shaft: the tool touches every face that comes within this distance of
@@ -50,6 +55,10 @@ struct CollisionRequest {
   double margin = 0.0;
   /// Asks for the clearance without a limit.
   bool clearance = false;
+  /// Asks for ToolClearance::closing_speed: the tool's pose `pose_before_sec` [s] before the end of
+  /// the step.
+  std::optional<ToolPose> pose_before;
+  double pose_before_sec = 0.0;
   /// Asks for at most this many faces that are within the margin and not touched. 0: none.
   std::size_t max_near = 0;
 
@@ -62,6 +71,11 @@ struct CollisionRequest {
   /// it.
   std::optional<Eigen::Vector3d> tip;
 };
+
+/// The velocity [m/s] of a point of a face that goes straight from one shape to another with the
+/// same faces within `seconds` > 0. `barycentric`: the point's coordinates in the face.
+Eigen::Vector3d velocity_between(const TriangleMesh& from, const TriangleMesh& to, double seconds,
+                                 std::uint32_t face, const Eigen::Vector3d& barycentric);
 
 /// Whether a request asks how far the tool is from the organ.
 inline bool asks_for_clearance(const CollisionRequest& request) {
@@ -152,7 +166,7 @@ class CollisionQuery {
   ///
   /// Throws GlError if OpenGL failed. Throws std::invalid_argument, naming the value and what is
   /// legal, for a request that has no answer:
-  /// - the organ is missing, or organ_before has other faces;
+  /// - the organ is missing, or organ_before or velocity_from has other faces;
   /// - the mode is not a value of QueryMode;
   /// - the radius is negative, not finite or above tolerance::kFarthest, or 0 without links;
   /// - a coordinate is not finite, or its magnitude is above tolerance::kFarthest;
@@ -161,6 +175,7 @@ class CollisionQuery {
   /// - in a paper mode: the tool has no shaft, its trocar moves in a swept mode, or it is too short
   ///   or too thin for the paper's volumes;
   /// - the margin is negative or not finite; or near faces are asked for, but no margin is given;
+  /// - pose_before lacks a link or is not finite, or the time since it or velocity_from is not > 0;
   /// - clearance, near faces or placement are asked for in a paper mode;
   /// - the placement's topology has another number of vertices than the organ, or the tip is not
   ///   finite.

@@ -56,6 +56,8 @@ struct FaceContact {
   bool behind = false;
   /// The point of the face with the coordinates `barycentric`, where it is at the end of the step.
   Eigen::Vector3d on_organ = Eigen::Vector3d::Zero();
+  /// [m/s] The velocity of the tissue there (CollisionRequest::velocity_from).
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
   /// False if the query reached its work limit before it could decide on this face. The face is
   /// then reported for safety: it may not be touched at all, and point, normal and depth may differ
   /// from those of the first touch. The message has no such field: ContactArray.msg counts these

@@ -9,6 +9,8 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cstdint>
 #include <string>
 
 #include "geometry/plausible_size.hpp"
@@ -53,6 +55,20 @@ inline constexpr double kMaxAheadDefault = 1.0;
 /// Why a stamp is refused: it is ahead of the clock by more than `max_ahead_sec`. Empty if the
 /// stamp is accepted. Before simulated time begins, `now` is zero and every stamp is accepted.
 std::string ahead_fault(ros::Time stamp, ros::Time now, double max_ahead_sec);
+
+/// [s] from one time to another, computed in whole nanoseconds, because ros::Duration overflows for
+/// extreme stamps.
+inline double seconds_between(ros::Time from, ros::Time to) {
+  return 1e-9 * static_cast<double>(static_cast<std::int64_t>(to.toNSec()) -
+                                    static_cast<std::int64_t>(from.toNSec()));
+}
+
+/// Whether what moved in its last message, which came at `received`, still counts as moving with
+/// the same velocity at `now`: for five times the time `period_sec` [s] between two messages, and
+/// for at most 1 s. So a few lost messages, or late ones, make no speed zero.
+inline bool goes_on(double period_sec, ros::Time received, ros::Time now) {
+  return seconds_between(received, now) <= std::min(5.0 * period_sec, 1.0);
+}
 
 /// Notices when ROS time jumps back.
 class ClockWatch {

@@ -36,10 +36,6 @@ std::int64_t elapsed(ros::Time from, ros::Time to) {
   return static_cast<std::int64_t>(to.toNSec()) - static_cast<std::int64_t>(from.toNSec());
 }
 
-double seconds(ros::Time from, ros::Time to) {
-  return 1e-9 * static_cast<double>(elapsed(from, to));
-}
-
 /// How many samples, one each `spacing_sec`, lie strictly between two times that are `gap_sec`
 /// apart.
 double samples_between(double gap_sec, double spacing_sec) {
@@ -86,11 +82,12 @@ std::vector<ros::Time> ToolPoses::sample_times(const Tool& tool, const std::stri
     return stamps;
   }
   stamps.push_back(to);
-  const double spacing = std::max(sampling_.sample_sec, seconds(from, to) / sampling_.samples_max);
+  const double spacing =
+      std::max(sampling_.sample_sec, seconds_between(from, to) / sampling_.samples_max);
   std::vector<ros::Time> times;
   double wanted = 0.0, sampled = 0.0;
   for (const ros::Time stamp : stamps) {
-    const double gap = seconds(from, stamp);
+    const double gap = seconds_between(from, stamp);
     const auto count = static_cast<std::int64_t>(samples_between(gap, spacing));
     const auto step = static_cast<std::uint64_t>(elapsed(from, stamp) / (count + 1));
     std::uint64_t time = from.toNSec();
@@ -161,9 +158,18 @@ Lookup<ToolPose> ToolPoses::pose(const Tool& tool, const std::string& organ_fram
   return {{{std::move(pose), earliest}}, ""};
 }
 
+ToolPose ToolPoses::pose_before(const Tool& tool, const std::string& organ_frame,
+                                const Timed<ToolPose>& end, ros::Time now) const {
+  const bool moves = end.stamp.toSec() > kVelocitySec &&
+                     buffer_.goes_on(organ_frame, swept_frames(tool), end.stamp, now);
+  if (!moves) return end.value;
+  auto before = pose(tool, organ_frame, end.stamp - ros::Duration(kVelocitySec), false);
+  return before.found ? std::move(before.found->value) : end.value;
+}
+
 bool ToolPoses::is_nearly_forgotten(const Tool& tool, const std::string& organ_frame,
                                     ros::Time from, ros::Time to) const {
-  return seconds(from, to) >= longest_step().toSec() ||
+  return seconds_between(from, to) >= longest_step().toSec() ||
          buffer_.stamps_between(organ_frame, swept_frames(tool), from, to).rising.size() >=
              kMostRead / 2;
 }

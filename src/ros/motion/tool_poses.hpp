@@ -33,6 +33,12 @@ class ToolPoses {
   Lookup<ToolPose> pose(const Tool& tool, const std::string& organ_frame, ros::Time time,
                         bool with_tip_of_links = true) const;
 
+  /// The pose from which the tool has come within kVelocitySec with a constant velocity, which it
+  /// has at its pose `end`. It is `end` if the tool rests: no earlier pose is known, or newer
+  /// transforms are overdue (TransformBuffer::goes_on()).
+  ToolPose pose_before(const Tool& tool, const std::string& organ_frame, const Timed<ToolPose>& end,
+                       ros::Time now) const;
+
   /// Whether TF has all frames of the tool at a time. Costs a thirtieth of a pose() that is not
   /// found, because no error is put into words.
   bool has_pose(const Tool& tool, const std::string& organ_frame, ros::Time time) const;

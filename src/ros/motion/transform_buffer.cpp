@@ -107,6 +107,7 @@ void TransformBuffer::judge(Frame& frame, ros::Time stamp) {
 void TransformBuffer::note(Frame& frame, ros::Time stamp) {
   std::deque<ros::Time>& stamps = frame.stamps;
   frame.heard = stamp;
+  if (stamps.empty() || stamp > stamps.back()) frame.received = ros::Time::now();
   stamps.insert(std::upper_bound(stamps.begin(), stamps.end(), stamp), stamp);
   // In whole nanoseconds, because the arithmetic of ros::Time throws for extreme stamps.
   const std::uint64_t latest = stamps.back().toNSec();
@@ -139,6 +140,21 @@ std::optional<ros::Time> TransformBuffer::believed_until(const std::string& targ
     until = until ? std::min(*until, frame->heard) : frame->heard;
   }
   return until;
+}
+
+bool TransformBuffer::goes_on(const std::string& target, const Frames& sources, ros::Time time,
+                              ros::Time now) const {
+  const Nodes frames = chain(target, sources);
+  return std::all_of(frames.begin(), frames.end(), [&](const Frame* frame) {
+    const std::deque<ros::Time>& stamps = frame->stamps;
+    if (stamps.empty() || stamps.back() > time) return true;
+    // Senders without a clock of their own may give several transforms almost the same stamp.
+    const auto before = std::find_if(std::next(stamps.rbegin()), stamps.rend(), [&](auto stamp) {
+      return seconds_between(stamp, stamps.back()) >= kVelocitySec;
+    });
+    const ros::Time since = before == stamps.rend() ? stamps.front() : *before;
+    return organ_collision::goes_on(seconds_between(since, stamps.back()), frame->received, now);
+  });
 }
 
 bool TransformBuffer::has_heard(const std::string& frame) const {

@@ -15,6 +15,10 @@
 
 namespace organ_collision {
 
+/// [s] The interval over which velocities of frames are measured. TF interpolates between
+/// transforms, so that for frames that come more rarely, the last two transforms count.
+inline constexpr double kVelocitySec = 0.01;
+
 /// The name of a frame, and the stamp of the newest transform to its parent.
 struct NewestTransform {
   std::string frame;
@@ -66,6 +70,11 @@ class TransformBuffer : public tf2::BufferCore {
   Stamps stamps_between(const std::string& target, const Frames& sources, ros::Time from,
                         ros::Time to) const;
 
+  /// Whether `sources`, whose poses in the target frame are known up to `time`, count as moving on
+  /// at `now`: no newer transform is overdue (organ_collision::goes_on()).
+  bool goes_on(const std::string& target, const Frames& sources, ros::Time time,
+               ros::Time now) const;
+
   /// Notes that the poses of `sources` in the target frame have been used up to the time `stamp`.
   void set_answered(const std::string& target, const Frames& sources, ros::Time stamp);
   /// How many transforms came late, after poses at or past their stamp had already been used.
@@ -86,6 +95,7 @@ class TransformBuffer : public tf2::BufferCore {
     Nodes parents = {};                 ///< recent parents, the latest at the end
     std::deque<ros::Time> stamps = {};  ///< stamps of recent transforms, in rising order
     ros::Time heard = {};               ///< the stamp that came last
+    ros::Time received = {};            ///< when the largest stamp came
     ros::Time forgotten = {};           ///< the latest stamp that was forgotten
     ros::Time disproved = {};           ///< a stamp that was disproved (see believed_until())
     ros::Time answered = {};            ///< poses were used up to this stamp

@@ -18,6 +18,10 @@ namespace {
 /// error. The two sides of a sheet enclose such a volume.
 constexpr double kNoVolume = 1e-9;
 
+/// [s] Shapes without stamps that come within this time have waited for each other. Their arrival
+/// does not tell how fast the tissue moves.
+constexpr double kLeastArrival = 1e-3;
+
 constexpr char kNotYetKnown[] = "not yet known";
 
 }  // namespace
@@ -45,15 +49,22 @@ void DeformableOrgan::move(SharedVertices vertices, ros::Time stamp, ros::Time r
       unused != shapes_.end() ? *unused
                               : shapes_.emplace_back(std::make_shared<TriangleMesh>(*latest_.mesh));
   shape->move_vertices(std::move(vertices));
-  previous_ = std::move(latest_);
-  latest_ = {shape, stamp, received, previous_.surface};
+  OrganShape next{shape, stamp, received, latest_.surface};
+  const double arrival_sec = seconds_between(latest_.received, received);
+  const bool have_stamps = !stamp.isZero() && !latest_.stamp.isZero();
+  if (have_stamps || arrival_sec > kLeastArrival) {
+    next.motion_sec = have_stamps ? seconds_between(latest_.stamp, stamp) : arrival_sec;
+  }
+  next.period_sec = std::max(next.motion_sec, arrival_sec);
+  if (!std::exchange(begins_anew_, false)) next.before = latest_.mesh;
+  latest_ = std::move(next);
 }
 
 void DeformableOrgan::replace(TriangleMesh mesh, ros::Time stamp, ros::Time received) {
   const auto shape = std::make_shared<TriangleMesh>(std::move(mesh));
   auto surface = std::make_shared<OrganSurface>(*shape);
   shapes_ = {shape};  // Last, as it may fail for lack of memory.
-  previous_ = {};
+  begins_anew_ = false;
   latest_ = {shape, stamp, received, std::move(surface)};
 }
 

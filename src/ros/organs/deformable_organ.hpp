@@ -12,6 +12,7 @@
 
 #include "organ_collision/geometry/organ/surface_topology.hpp"
 #include "organ_collision/geometry/organ/triangle_mesh.hpp"
+#include "ros/messages/conversions.hpp"
 
 namespace organ_collision {
 
@@ -66,6 +67,22 @@ struct OrganShape {
   ros::Time stamp;                           ///< the stamp of the message; zero: it has none
   ros::Time received;
   std::shared_ptr<OrganSurface> surface = {};  ///< what is known of the triangles; null: no shape
+  /// The shape before, with the same triangles. Null if this one is the first with its triangles,
+  /// and after forget_before().
+  std::shared_ptr<const TriangleMesh> before = {};
+  /// [s] from `before` to this shape, by their stamps. If one of them has no stamp: by their
+  /// arrival
+  double motion_sec = 0.0;
+  double period_sec = 0.0;  ///< [s] the same or the time between their arrivals, what is longer
+
+  /// The shape from which the tissue has come with a constant velocity, which it has at `now`, too,
+  /// within motion_sec. This is the velocity of tissue in all answers. Null if the tissue rests: it
+  /// has no shape before, the stamps do not rise, or the next shape is overdue (goes_on()).
+  std::shared_ptr<const TriangleMesh> moves_from(ros::Time now) const {
+    const bool moves = motion_sec > 0.0 && goes_on(period_sec, received, now);
+    return moves ? before : nullptr;
+  }
+  void forget_before() { before.reset(); }
 
   /// How the mesh's faces join. Null until OrganSurface::find() is done.
   const SurfaceTopology* topology() const {
@@ -81,7 +98,7 @@ struct OrganShape {
   }
 };
 
-/// A named organ: its frame, its latest shape and the one before.
+/// A named organ: its frame and its latest shape, which has the one before.
 class DeformableOrgan {
  public:
   DeformableOrgan(std::string name, std::string frame, TriangleMesh mesh, ros::Time stamp,
@@ -90,9 +107,6 @@ class DeformableOrgan {
   const std::string& name() const { return name_; }
   const std::string& frame() const { return frame_; }
   const OrganShape& latest() const { return latest_; }
-  /// The shape before the latest one. It has no mesh if the latest shape is the first one with its
-  /// triangles, and after forget_previous() or set_frame().
-  const OrganShape& previous() const { return previous_; }
   /// What is known of the surface. After the triangles have changed, this returns another object.
   const std::shared_ptr<OrganSurface>& surface() const { return latest_.surface; }
 
@@ -106,9 +120,13 @@ class DeformableOrgan {
   /// Also forgets the previous shape, which was in another frame.
   void set_frame(std::string frame) {
     frame_ = std::move(frame);
-    previous_ = {};
+    latest_.forget_before();
   }
-  void forget_previous() { previous_ = {}; }
+  /// The latest shape and the next one have no shape before.
+  void forget_previous() {
+    latest_.forget_before();
+    begins_anew_ = true;
+  }
   /// To be called when the clock has jumped back to `now`, or has begun. If the latest shape was
   /// received later, or before the clock began, that shape counts as received at `now`.
   void receive_anew(ros::Time now);
@@ -117,7 +135,7 @@ class DeformableOrgan {
   std::string name_;
   std::string frame_;
   OrganShape latest_;
-  OrganShape previous_;
+  bool begins_anew_ = false;  ///< the next shape cannot be compared with the latest one
   std::vector<std::shared_ptr<TriangleMesh>> shapes_;  ///< all with the present triangles
 };
 

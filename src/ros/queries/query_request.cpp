@@ -172,6 +172,8 @@ void read_tool_motion(const NodeState& node, const QueryCollision::Request& requ
   if (!end.found) throw Rejection(ContactArray::NO_TRANSFORM, "no transform", end.why_not);
   snapshot.tip = end.found->value.tip;
   set_end(end.found->stamp, answer);
+  snapshot.pose_before =
+      node.pipeline.poses.pose_before(tool, organ.frame(), *end.found, ros::Time::now());
 
   const auto index = static_cast<std::size_t>(&tool - node.tools.data());
   const StepHistory& history = node.pipeline.steps.history();
@@ -274,7 +276,8 @@ QuerySnapshot take_snapshot(const NodeState& node, const QueryCollision::Request
   check_age(node, organ);
   QuerySnapshot snapshot;
   snapshot.latest = organ.latest();
-  snapshot.shape_before = organ.previous().mesh;
+  if (!node.parameters.organ_motion) snapshot.latest.forget_before();
+  snapshot.shape_before = snapshot.latest.before;
   if (tool && in_tf) {
     read_tool_motion(node, request, organ, *tool, snapshot, answer);
   } else {
@@ -290,6 +293,10 @@ void set_subject(const QuerySnapshot& snapshot, bool organ_rests, CollisionReque
   collision.organ = snapshot.latest.mesh.get();
   const bool moves = !organ_rests && collision.mode == QueryMode::kSwept;
   if (moves) collision.organ_before = snapshot.shape_before.get();
+  if (!organ_rests) collision.velocity_from = snapshot.latest.moves_from(ros::Time::now()).get();
+  collision.velocity_sec = snapshot.latest.motion_sec;
+  collision.pose_before = snapshot.pose_before;
+  collision.pose_before_sec = kVelocitySec;
   if (collision.placement) {
     snapshot.latest.surface->wait_until_found(kLongestInspection);
     collision.surface_topology = snapshot.latest.topology();

@@ -43,6 +43,7 @@ struct QuerySnapshot {
   std::optional<Tool> tool;  ///< the tool that is asked about; empty: the request describes a shaft
   ToolPath path;             ///< the tool's path in TF; empty if the request gives the motion
   std::string unknown = {};  ///< what is not known of `path`; empty: all is known
+  std::optional<ToolPose> pose_before = {};  ///< ToolPoses::pose_before(), if `path` is in TF
   /// The tip of the tool's links at the end of `path`, if they have one, in the organ's frame.
   std::optional<Eigen::Vector3d> tip;
   /// From the frame of the request's motions to the organ's frame.

@@ -30,12 +30,6 @@ void set_place(const Source& source, Message& message) {
   for (std::size_t i = 0; i < 3; ++i) message.barycentric[i] = source.barycentric[i];
 }
 
-/// [s] The duration of an answer's step. The difference of extreme stamps does not fit
-/// ros::Duration.
-double duration(const ContactArray& answer) {
-  return answer.header.stamp.toSec() - answer.step_start.toSec();
-}
-
 /// The time at a fraction of an answer's step.
 ros::Time time_at(const ContactArray& answer, double fraction) {
   const std::uint64_t start = answer.step_start.toNSec(), end = answer.header.stamp.toNSec();
@@ -154,11 +148,12 @@ Contact to_message(const FaceContact& contact) {
   message.depth = contact.depth;
   message.behind = contact.behind;
   message.on_organ = tf2::toMsg(contact.on_organ);
+  message.velocity = to_vector(contact.velocity);
   message.on_tool = tf2::toMsg(contact.on_tool());
   return message;
 }
 
-Clearance to_message(const ToolClearance& clearance, double duration) {
+Clearance to_message(const ToolClearance& clearance) {
   Clearance message;
   set_place(clearance, message);
   message.state = static_cast<std::uint8_t>(clearance.state);
@@ -173,7 +168,7 @@ Clearance to_message(const ToolClearance& clearance, double duration) {
   message.normal = to_vector(clearance.normal);
   message.normal_defined = clearance.normal_defined;
   message.unresolved = !clearance.is_resolved;
-  if (duration > 0.0) message.closing_speed = clearance.closing / duration;
+  message.closing_speed = clearance.closing_speed;
   return message;
 }
 
@@ -250,7 +245,7 @@ double ContactQuery::evaluate(const CollisionRequest& request, ContactArray& ans
   }
   answer.near_more = result_.near_more;
   answer.near_unresolved = static_cast<std::uint32_t>(result_.near_unresolved);
-  answer.clearance = to_message(result_.clearance, duration(answer));
+  answer.clearance = to_message(result_.clearance);
   answer.placement = to_message(result_.placement);
   return query_time.count();
 }

@@ -53,8 +53,7 @@ std::string stale_message(const std::string& organ, const OrganShape& shape, ros
 // frame.
 
 Contact to_message(const FaceContact& contact);
-/// `duration` [s]: that of the step; 0 if it is not known.
-Clearance to_message(const ToolClearance& clearance, double duration);
+Clearance to_message(const ToolClearance& clearance);
 Crossing to_message(const AxisCrossing& crossing);
 ToolPlacement to_message(const AxisPlacement& placement);
 /// The corners in the same order and frame, rounded to 32-bit floats.

@@ -207,6 +207,8 @@ void StepScheduler::reset() {
   for (auto& [key, pair] : history_) {
     pair.last.reset();
     pair.answer.reset();
+    pair.current.forget_before();
+    for (WaitingShape& waiting : pair.waiting) waiting.shape.forget_before();
   }
 }
 
@@ -288,10 +290,27 @@ void StepScheduler::answer(ToolStep& step, ContactQuery& query) const {
   } else {
     request.path = resting_path(step.end->value);
   }
+  set_velocities(step);
   begin_answer(step, step.end->stamp);
   step.query_sec = query.evaluate(request, *step.answer);
   set_incomplete(*step.answer, step.sampled.unknown);
   set_memory(*step.answer, comparable ? comparable->answer.get() : nullptr);
+}
+
+/// Sets from where the velocities of tissue and tool count. A shape that makes its step due, or
+/// after which newer shapes have come, is not overdue.
+void StepScheduler::set_velocities(ToolStep& step) const {
+  const OrganShape& shape = step.pair->current;
+  CollisionRequest& request = step.request;
+  const ros::Time now = ros::Time::now();
+  const bool is_old = step.is_of_shape || shape.mesh != step.organ->latest().mesh;
+  if (parameters_.organ_motion) {
+    request.velocity_from = shape.moves_from(is_old ? shape.received : now).get();
+    request.velocity_sec = shape.motion_sec;
+  }
+  if (!asks_for_clearance(request) || request.mode == QueryMode::kStatic) return;
+  request.pose_before = poses_.pose_before(tools_[step.tool], step.organ->frame(), *step.end, now);
+  request.pose_before_sec = kVelocitySec;
 }
 
 /// Sets an answer whose results are still empty. `end`: its stamp.

@@ -108,6 +108,7 @@ class StepScheduler {
 
   bool evaluate_due();
   void answer(ToolStep& step, ContactQuery& query) const;
+  void set_velocities(ToolStep& step) const;
   void begin_answer(ToolStep& step, ros::Time end) const;
   void deliver(ToolStep& step);
   void begin_with_latest_shapes(std::size_t tool);

@@ -20,11 +20,11 @@ TEST_F(OrganRegistryTest, AMessageIsTheShapeWithoutACopy) {
   const auto second = boost::make_shared<const OrganVertices>(vertices(3));
   EXPECT_EQ(store_.apply(second, ros::Time(8)), OrganChange::kShape);
   EXPECT_EQ(&store_.at("liver").latest().mesh->vertices(), &second->vertices);
-  EXPECT_EQ(&store_.at("liver").previous().mesh->vertices(), &first->vertices);
+  EXPECT_EQ(&store_.at("liver").latest().before->vertices(), &first->vertices);
   const auto* faces = &store_.at("liver").latest().mesh->faces();
   EXPECT_EQ(apply(mesh(), ros::Time(8)), OrganChange::kShape);
   EXPECT_EQ(&store_.at("liver").latest().mesh->faces(), faces) << "they count as vertices";
-  EXPECT_TRUE(store_.at("liver").previous().mesh);
+  EXPECT_TRUE(store_.at("liver").latest().before);
 }
 
 TEST_F(OrganRegistryTest, AfterANewTopologyOrFrameThereIsNoPreviousShape) {
@@ -33,18 +33,18 @@ TEST_F(OrganRegistryTest, AfterANewTopologyOrFrameThereIsNoPreviousShape) {
   cut.triangles = {0, 1, 2};
   EXPECT_EQ(apply(cut, ros::Time(8)), OrganChange::kShape);
   EXPECT_EQ(store_.at("liver").latest().mesh->face_count(), 1U);
-  EXPECT_FALSE(store_.at("liver").previous().mesh);
+  EXPECT_FALSE(store_.at("liver").latest().before);
   cut.header.frame_id = "/table";
   EXPECT_EQ(apply(cut, ros::Time(9)), OrganChange::kFrame);
   EXPECT_EQ(store_.at("liver").frame(), "table");
-  EXPECT_FALSE(store_.at("liver").previous().mesh);
+  EXPECT_FALSE(store_.at("liver").latest().before);
 }
 
 TEST_F(OrganRegistryTest, ForgetsHistory) {
   apply(mesh(), ros::Time(7), first_);
   apply(vertices(3), ros::Time(8));
   store_.forget_history();
-  EXPECT_FALSE(store_.at("liver").previous().mesh);
+  EXPECT_FALSE(store_.at("liver").latest().before);
   EXPECT_EQ(store_.at("liver").latest().mesh->vertex(0).z(), 3.0);
   OrganMesh other = mesh();
   other.triangles = {0, 1, 3};
@@ -194,14 +194,14 @@ TEST_F(OrganRegistryTest, OtherTrianglesOverANewConnectionAreAnotherOrgan) {
   expect_refused(bad, invalid, "index out of range", {}, second_);  // It does not become known.
   EXPECT_EQ(apply(other, ros::Time(9), second_), OrganChange::kOrgan);
   EXPECT_EQ(store_.at("liver").latest().mesh->face_count(), 1U);
-  EXPECT_FALSE(store_.at("liver").previous().mesh);
+  EXPECT_FALSE(store_.at("liver").latest().before);
   // Messages that still arrive over the old connection do not displace the new organ.
   expect_refused(mesh(), invalid, same, {}, first_);
   expect_refused(more, invalid, same, {}, second_);
   EXPECT_EQ(apply(more, ros::Time(10), header()), OrganChange::kOrgan);
   const ros::M_stringPtr third = header();  // The same triangles count as vertices.
   EXPECT_EQ(apply(more, ros::Time(11), third), OrganChange::kShape);
-  EXPECT_TRUE(store_.at("liver").previous().mesh);
+  EXPECT_TRUE(store_.at("liver").latest().before);
   expect_refused(other, invalid, same, {}, third);
 }
 

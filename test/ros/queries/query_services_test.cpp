@@ -206,6 +206,28 @@ TEST_F(QueryServicesTest, OrganRestsOnRequestAndInStaticQueries) {
   EXPECT_TRUE(services.query(request).contacts.empty());
 }
 
+TEST_F(QueryServicesTest, TellHowFastTissueMovesAndComesNearATool) {
+  send_vertices(1.1, 0.05F);
+  const auto velocity = [&] { return services.query(request).contacts.at(0).velocity.z; };
+  request.clearance = true;
+  EXPECT_NEAR(velocity(), 0.5, 1e-6);
+  EXPECT_EQ(services.query(request).clearance.closing_speed, 0.0);  // The motion has no duration.
+  request.organ_rests = true;
+  EXPECT_EQ(velocity(), 0.0);
+  request.organ_rests = false;
+  request.mode = ContactArray::STATIC;
+  EXPECT_NEAR(velocity(), 0.5, 1e-6);
+  for (const double time : {1.0, 1.05, 1.1}) send_tip(time, {0.1, 0.2, 0.4 - 0.2 * (time - 1.0)});
+  evaluate();
+  request.tool = "hook";
+  request.motion = {};
+  EXPECT_EQ(services.query(request).clearance.closing_speed, 0.0);
+  request.mode = ContactArray::SWEPT;
+  EXPECT_NEAR(services.query(request).clearance.closing_speed, 0.7, 1e-6);
+  request.organ_rests = true;
+  EXPECT_NEAR(services.query(request).clearance.closing_speed, 0.2, 1e-6);
+}
+
 TEST_F(QueryServicesTest, AnEmptyNameStandsForTheOnlyOrgan) {
   const ContactArray named = services.query(request);
   request.organ = "";
