@@ -45,6 +45,16 @@ void check_links(const std::vector<Link>& links, const ToolWaypoint& waypoint, s
   }
 }
 
+void check_arcs(const ShaftArcs& arcs, std::size_t index) {
+  for (const ShaftArc& arc : arcs) {
+    check_point(arc.arm, "the arm of an arc to waypoint ", index);
+    if (!(arc.turn.norm() <= M_PI + kRotationTolerance)) {
+      refuse("an arc to waypoint ", index, " turns by ", arc.turn.norm(),
+             " rad; must be finite and at most half a turn");
+    }
+  }
+}
+
 void check_path(const CollisionRequest& request) {
   const ToolPath& path = request.path;
   if (path.empty()) refuse("the tool's path is empty; it has at least one waypoint");
@@ -52,6 +62,7 @@ void check_path(const CollisionRequest& request) {
     if (request.radius > 0.0) {
       check_point(path[i].axis.trocar, "trocar of waypoint ", i);
       check_point(path[i].axis.tip, "tip of waypoint ", i);
+      check_arcs(path[i].arcs, i);
     }
     if (request.links) check_links(*request.links, path[i], i);
     if (path[i].links.size() != path[0].links.size()) {
