@@ -124,7 +124,8 @@ double ClearanceFinder::closing(const Step& step, const Approach& end, const Vec
   Vector3d way = point_at(face.motion.start, closest.barycentric) -
                  point_at(face.motion.end, closest.barycentric);
   if (!end.part.shape) {
-    way += step.shaft_motion(last).end_velocity().at(closest.shaft);
+    const ShaftMotion shaft = step.shaft_motion(last);
+    way += shaft.end.at(closest.shaft) - shaft.start.at(closest.shaft);
   } else {
     const RigidMotion link = step.link_motion(last, end.part.link);
     const Vector3d arm = closest.on_core - link.end().translation();

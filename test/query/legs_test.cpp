@@ -76,7 +76,8 @@ TEST(LegSpan, BoundsHowFarAShaftIsFromItsChord) {
     return shaft_span(path.data(), path.size(), leg, allowed);
   };
   expect_bounds(random, next_span, [](const ToolPath& path, const LegSpan& span) {
-    const ShaftMotion chord{path[span.begin].axis, path[span.end].axis};
+    ShaftMotion chord{path[span.begin].axis, path[span.end].axis};
+    if (span.leg_count() == 1) chord.arcs = path[span.end].arcs;  // As Step::shaft_motion() does.
     double most = 0.0;
     for_each_time(path, span, [&](std::size_t on, double time, double chord_time) {
       const ShaftAxis axis =

@@ -40,21 +40,11 @@ Vector3d ShaftArc::beside_line(double time) const {
   return displacement(*this, time) - time * displacement(*this, 1.0);
 }
 
-Vector3d ShaftArc::end_velocity() const {
-  const Vector3d moved = displacement(*this, 1.0);
-  return turn.cross(arm + moved) - moved;
-}
-
 ShaftArc ShaftArc::part(double begin, double end) const {
   return {(end - begin) * turn, arm + displacement(*this, begin)};
 }
 
 double ShaftMotion::deviation() const { return std::max(arcs[0].deviation(), arcs[1].deviation()); }
-
-ShaftAxis ShaftMotion::end_velocity() const {
-  return {end.trocar - start.trocar + arcs[0].end_velocity(),
-          end.tip - start.tip + arcs[1].end_velocity()};
-}
 
 ShaftArc EndCarrier::arc_to(const EndCarrier& next) const {
   const Eigen::AngleAxisd turn(next.orientation * orientation.conjugate());

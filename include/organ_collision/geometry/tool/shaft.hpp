@@ -26,8 +26,6 @@ struct ShaftArc {
   Eigen::Vector3d beside_line(double time) const;
   /// [m] An upper bound of the length of beside_line(), for all times.
   double deviation() const { return turn.norm() * turn.cross(arm).norm() / 8.0; }
-  /// [m per leg] The velocity of the end at time 1, minus that of linear motion.
-  Eigen::Vector3d end_velocity() const;
   /// The arc from the time `begin` to the time `end` of this one.
   ShaftArc part(double begin, double end) const;
 };
@@ -49,8 +47,6 @@ struct ShaftMotion {
   /// [m] An upper bound of the distance of any point of the axis from its place if both ends moved
   /// linearly.
   double deviation() const;
-  /// [m per leg] The velocities of trocar and tip at time 1.
-  ShaftAxis end_velocity() const;
 };
 
 }  // namespace organ_collision
