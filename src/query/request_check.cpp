@@ -52,11 +52,24 @@ void check_axis(const ShaftAxis& axis, const Parts&... of) {
   check_point(axis.tip, "tip of ", of...);
 }
 
+void check_arcs(const ShaftArcs& arcs, std::size_t index) {
+  for (const ShaftArc& arc : arcs) {
+    check_point(arc.arm, "the arm of an arc to waypoint ", index);
+    if (!(arc.turn.norm() <= M_PI + kRotationTolerance)) {
+      refuse("an arc to waypoint ", index, " turns by ", arc.turn.norm(),
+             " rad; must be finite and at most half a turn");
+    }
+  }
+}
+
 void check_path(const CollisionRequest& request) {
   const ToolPath& path = request.path;
   if (path.empty()) refuse("the tool's path is empty; it has at least one waypoint");
   for (std::size_t i = 0; i < path.size(); ++i) {
-    if (request.radius > 0.0) check_axis(path[i].axis, "waypoint ", i);
+    if (request.radius > 0.0) {
+      check_axis(path[i].axis, "waypoint ", i);
+      check_arcs(path[i].arcs, i);
+    }
     if (request.links) check_links(*request.links, path[i].links, "waypoint ", i);
     if (path[i].links.size() != path[0].links.size()) {
       refuse("waypoint ", i, " has poses of ", path[i].links.size(),

@@ -17,20 +17,26 @@ double rotation_cosine(const Isometry3d& from, const Isometry3d& to) {
   return 0.5 * (from.linear().cwiseProduct(to.linear()).sum() - 1.0);
 }
 
-/// The number of equal parts into which a leg is divided, so that no link turns by more than
-/// kMaxRotation.
+/// The number of equal parts into which a leg is divided, so that no link, and nothing that carries
+/// an end of the shaft's axis, turns by more than kMaxRotation.
 int count_parts(const ToolWaypoint& from, const ToolWaypoint& to) {
   double least_cosine = 1.0;
   for (std::size_t i = 0; i < to.links.size(); ++i) {
     least_cosine = std::min(least_cosine, rotation_cosine(from.links[i], to.links[i]));
   }
-  if (least_cosine >= std::cos(kMaxRotation)) return 1;
-  return static_cast<int>(std::ceil(std::acos(std::max(least_cosine, -1.0)) / kMaxRotation));
+  double angle = std::max(to.arcs[0].turn.norm(), to.arcs[1].turn.norm());
+  if (least_cosine < std::cos(kMaxRotation)) {
+    angle = std::max(angle, std::acos(std::max(least_cosine, -1.0)));
+  }
+  return std::max(1, static_cast<int>(std::ceil(angle / kMaxRotation)));
 }
 
-ToolWaypoint interpolated(const ToolWaypoint& from, const ToolWaypoint& to, double time) {
+/// The waypoint at `time` in [0, 1] of a leg. It comes from the one at the time `begin`.
+ToolWaypoint interpolated(const ToolWaypoint& from, const ToolWaypoint& to, double begin,
+                          double time) {
   ToolWaypoint waypoint{from.fraction + time * (to.fraction - from.fraction),
-                        ShaftMotion{from.axis, to.axis}.at(time)};
+                        ShaftMotion{from.axis, to.axis, to.arcs}.at(time)};
+  waypoint.arcs = {to.arcs[0].part(begin, time), to.arcs[1].part(begin, time)};
   for (std::size_t i = 0; i < to.links.size(); ++i) {
     waypoint.links.push_back(RigidMotion(from.links[i], to.links[i]).at(time));
   }
@@ -73,20 +79,23 @@ double time_on_chord(const ToolWaypoint* waypoints, std::size_t begin, std::size
          (waypoints[end].fraction - waypoints[begin].fraction);
 }
 
-/// [m] The largest deviation of the shaft's axis from the chord between waypoints `begin` and
-/// `end`; kTooFar if it exceeds `allowed`.
+/// [m] An upper bound of the deviation of the shaft's axis from the chord between waypoints `begin`
+/// and `end`; kTooFar if it exceeds `allowed`. Between waypoints, legs on arcs leave the straight
+/// line.
 double shaft_deviation(const ToolWaypoint* waypoints, std::size_t begin, std::size_t end,
                        double allowed) {
   const ShaftMotion chord{waypoints[begin].axis, waypoints[end].axis};
-  double deviation = 0.0;
-  for (std::size_t i = begin + 1; i < end; ++i) {
+  double deviation = 0.0, between = 0.0;
+  for (std::size_t i = begin + 1; i <= end; ++i) {
+    const ShaftArcs& arcs = waypoints[i].arcs;
+    between = std::max({between, arcs[0].deviation(), arcs[1].deviation()});
     const ShaftAxis& axis = waypoints[i].axis;
     const ShaftAxis on_chord = chord.at(time_on_chord(waypoints, begin, i, end));
     deviation = std::max(
         {deviation, (axis.trocar - on_chord.trocar).norm(), (axis.tip - on_chord.tip).norm()});
-    if (deviation > allowed) return kTooFar;
+    if (deviation + between > allowed) return kTooFar;
   }
-  return deviation;
+  return deviation + between;
 }
 
 /// [m] An upper bound of the deviation of a link from the chord between two waypoints; kTooFar if
@@ -138,10 +147,14 @@ const ToolPath& with_subdivided_rotations(const ToolPath& path, ToolPath& finer)
   for (std::size_t i = 1; i < path.size(); ++i) {
     const ToolWaypoint &from = path[i - 1], &to = path[i];
     const int parts = count_parts(from, to);
+    double begin = 0.0;
     for (int part = 1; part < parts; ++part) {
-      finer.push_back(interpolated(from, to, static_cast<double>(part) / parts));
+      const double end = static_cast<double>(part) / parts;
+      finer.push_back(interpolated(from, to, begin, end));
+      begin = end;
     }
     finer.push_back(to);
+    finer.back().arcs = {to.arcs[0].part(begin, 1.0), to.arcs[1].part(begin, 1.0)};
   }
   return finer;
 }

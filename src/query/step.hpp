@@ -11,14 +11,14 @@
 
 namespace organ_collision {
 
-/// [rad] The largest rotation of a link within one leg. An arc of 0.2 rad deviates from its chord
-/// by half a percent of its radius.
+/// [rad] The largest rotation of a link, or of what carries an end of a shaft, within one leg. An
+/// arc of 0.2 rad deviates from its chord by half a percent of its radius.
 inline constexpr double kMaxRotation = 0.2;
 
-/// Adds waypoints to a path, without changing the motion, so that no link rotates by more than
-/// kMaxRotation within a leg. With larger rotations, the boxes around the moving link would be much
-/// larger than the link. Returns `path` if no waypoint is needed. Otherwise fills and returns
-/// `finer`.
+/// Adds waypoints to a path, without changing the motion, so that nothing rotates by more than
+/// kMaxRotation within a leg. With larger rotations, the volumes around the moving link or shaft
+/// would be much larger than the link or shaft. Returns `path` if no waypoint is needed. Otherwise
+/// fills and returns `finer`.
 const ToolPath& with_subdivided_rotations(const ToolPath& path, ToolPath& finer);
 
 /// Consecutive legs of a step, [begin, end), on which a part of the tool stays near the chord: the
@@ -86,8 +86,13 @@ class Step {
   LegSpan shaft_span(std::size_t leg) const;
   LegSpan link_span(std::size_t leg, std::size_t link, const LinkBall& ball) const;
 
-  /// The motion of the shaft or of a link along the chord of a span.
-  ShaftMotion shaft_motion(const LegSpan& span) const { return {from(span).axis, to(span).axis}; }
+  /// The motion of the shaft or of a link along the chord of a span. If the span has one leg, it
+  /// is the motion on this leg, so a shaft may move on arcs.
+  ShaftMotion shaft_motion(const LegSpan& span) const {
+    ShaftMotion motion{from(span).axis, to(span).axis};
+    if (waypoint_count_ > 1 && span.leg_count() == 1) motion.arcs = to(span).arcs;
+    return motion;
+  }
   RigidMotion link_motion(const LegSpan& span, std::size_t link) const {
     return {from(span).links[link], to(span).links[link]};
   }

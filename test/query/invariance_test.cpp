@@ -56,6 +56,63 @@ TEST_P(InvarianceWith, OrderOfFacesAndVerticesOnlyRenumbers) {
   }
 }
 
+// What is true of links that turn is true of a shaft that a body carries.
+TEST_P(InvarianceWith, AShaftThatABodyCarriesMovesAsALinkOfItsShape) {
+  Random random(15);
+  std::size_t found = 0, by_arc_alone = 0;
+  for (int i = 0; i < 150 && !HasFailure(); ++i) {
+    LinkScene scene(false, random);
+    scene.remove_links(random);
+    const double radius = scene.request.radius;
+    const ShaftAxis shape{random.point(0.05), Vector3d(0.0, 0.0, 0.15) + random.point(0.05)};
+    const Eigen::Isometry3d from = oracle::random_pose(0.1, random);
+    Eigen::Isometry3d to = from;
+    to.linear() *= oracle::random_turn(random.uniform(0.01, 3.0), random);
+    to.translation() += random.scale(1e-5, 0.05) * random.direction();
+
+    CollisionRequest& carried = scene.request;
+    carried.path = {{0.0, {from * shape.trocar, from * shape.tip}},
+                    {1.0, {to * shape.trocar, to * shape.tip}}};
+    const std::vector<FaceContact> straight = contacts(carried);
+    const auto arc = [&](const Vector3d& end) {
+      const EndCarrier before{Eigen::Quaterniond(from.linear()), from.linear() * end};
+      return before.arc_to({Eigen::Quaterniond(to.linear()), to.linear() * end});
+    };
+    carried.path[1].arcs = {arc(shape.trocar), arc(shape.tip)};
+    carried.margin = 0.05;
+    const std::vector<FaceContact> of_shaft = contacts(carried);
+    const ToolClearance clearance = result_.clearance;
+
+    LinkPart capsule = LinkPart::sphere(shape.at(0.5), radius);
+    capsule.core = ConvexCore(shape);
+    capsule.bounds.half_size = (0.5 * (shape.tip - shape.trocar)).cwiseAbs();
+    scene.links = {{"capsule", {capsule}}};
+    CollisionRequest linked = carried;
+    linked.radius = 0.0;
+    linked.links = &scene.links;
+    linked.path = {{0.0, kNoShaft, {from}}, {1.0, kNoShaft, {to}}};
+    const std::vector<FaceContact> of_link = contacts(linked);
+
+    ASSERT_EQ(of_shaft.size(), of_link.size()) << "scene " << i;
+    for (std::size_t k = 0; k < of_shaft.size(); ++k) {
+      EXPECT_EQ(of_shaft[k].face, of_link[k].face);
+      EXPECT_NEAR(of_shaft[k].fraction, of_link[k].fraction, 1e-6);
+      EXPECT_EQ(of_shaft[k].touching, of_link[k].touching);
+    }
+    const ToolClearance& of_axis = result_.clearance;  // Only shafts and balls have a radius.
+    if (of_axis.state == ClearanceState::kKnown) {
+      EXPECT_NEAR(clearance.distance, of_axis.distance - radius, kExact);
+      if (of_shaft.empty()) {
+        EXPECT_NEAR(clearance.least, of_axis.least - radius, kMoving);
+      }
+    }
+    found += of_shaft.size();
+    by_arc_alone += of_shaft.size() != straight.size();
+  }
+  EXPECT_GT(found, 500U);
+  EXPECT_GT(by_arc_alone, 50U) << "arcs must matter";
+}
+
 // Several of the scattered triangles touch or pierce the same face. Some occur twice.
 TEST_P(InvarianceWith, OrderOfAToolsTrianglesChangesNothing) {
   Random random(14);

@@ -24,6 +24,9 @@ ToolPath wandering(std::size_t count, double tremor, Random& random) {
     next.fraction = static_cast<double>(i) / static_cast<double>(count - 1);
     next.axis.tip += drift + tremor * random.direction();
     next.axis.trocar += tremor * random.direction();
+    for (ShaftArc& arc : next.arcs) {
+      arc = {random.scale(1e-6, 0.1) * random.direction(), random.point(0.2)};
+    }
     next.links[0].translation() += drift + tremor * random.direction();
     next.links[0].linear() *= turn * oracle::random_turn(tremor, random);
     path.push_back(next);
@@ -73,10 +76,12 @@ TEST(LegSpan, BoundsHowFarAShaftIsFromItsChord) {
     return shaft_span(path.data(), path.size(), leg, allowed);
   };
   expect_bounds(random, next_span, [](const ToolPath& path, const LegSpan& span) {
-    const ShaftMotion chord{path[span.begin].axis, path[span.end].axis};
+    ShaftMotion chord{path[span.begin].axis, path[span.end].axis};
+    if (span.leg_count() == 1) chord.arcs = path[span.end].arcs;  // As Step::shaft_motion() does.
     double most = 0.0;
     for_each_time(path, span, [&](std::size_t on, double time, double chord_time) {
-      const ShaftAxis axis = ShaftMotion{path[on].axis, path[on + 1].axis}.at(time);
+      const ShaftAxis axis =
+          ShaftMotion{path[on].axis, path[on + 1].axis, path[on + 1].arcs}.at(time);
       const ShaftAxis on_chord = chord.at(chord_time);
       for (const double place : {0.0, 0.3, 1.0}) {
         most = std::max(most, (axis.at(place) - on_chord.at(place)).norm());
@@ -175,6 +180,23 @@ TEST(RotationSubdivision, DividesLongRotationsAlongTheSameWay) {
     if (to.fraction <= 0.5) continue;
     EXPECT_TRUE(to.links[1].isApprox(whole.at(2.0 * (to.fraction - 0.5)), 1e-14));
     EXPECT_NEAR(to.axis.tip.x(), 0.1 * to.fraction, 1e-15);
+  }
+
+  // A shaft whose tip is carried along moves as before, too.
+  const ShaftArc arc{2.9 * Vector3d(0.6, 0.0, 0.8), {0.1, -0.3, 0.2}};
+  ToolPath carried = {{0.0, {{0.0, 0.0, 0.0}, {0.1, 0.2, 0.3}}},
+                      {1.0, {{0.0, 0.1, 0.0}, {0.3, 0.1, 0.3}}, {}, {ShaftArc{}, arc}}};
+  const ShaftMotion motion{carried[0].axis, carried[1].axis, carried[1].arcs};
+  ASSERT_EQ(with_subdivided_rotations(carried, finer).size(), 16U);
+  for (std::size_t i = 1; i < finer.size(); ++i) {
+    const ShaftMotion leg{finer[i - 1].axis, finer[i].axis, finer[i].arcs};
+    EXPECT_LE(leg.arcs[1].turn.norm(), kMaxRotation);
+    for (const double time : {0.0, 0.3, 1.0}) {
+      const ShaftAxis right =
+          motion.at(finer[i - 1].fraction + time * (finer[i].fraction - finer[i - 1].fraction));
+      EXPECT_LE((leg.at(time).tip - right.tip).norm(), 1e-15);
+      EXPECT_LE((leg.at(time).trocar - right.trocar).norm(), 1e-15);
+    }
   }
 
   // A rotation by pi has no unique shortest path. Any of them may be taken.

@@ -102,7 +102,8 @@ OrientedBox box_around(const ShaftMotion& motion) {
     box.extend(axes.transpose() * (axis.trocar - origin));
     box.extend(axes.transpose() * (axis.tip - origin));
   }
-  return {origin + axes * box.center(), axes, 0.5 * box.sizes()};
+  const double deviation = motion.deviation();
+  return {origin + axes * box.center(), axes, (0.5 * box.sizes()).array() + deviation};
 }
 
 }  // namespace organ_collision

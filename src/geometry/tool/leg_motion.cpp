@@ -1,9 +1,14 @@
 #include "leg_motion.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include "organ_collision/geometry/tool/tool_path.hpp"
 
 namespace organ_collision {
 namespace {
+
+using Eigen::Vector3d;
 
 /// Replaces the linear part of a pose by the nearest rotation, so that the link keeps its size.
 Eigen::Isometry3d orthonormal(Eigen::Isometry3d pose) {
@@ -19,7 +24,32 @@ double longest_arm(const ConvexCore& core, const RigidMotion& motion) {
   return arm + core.rim.col(0).norm();
 }
 
+/// How far a vector that is carried along is from where it was, when `share` of a turn is done.
+Vector3d displacement(const ShaftArc& arc, double share) {
+  const double angle = arc.turn.norm();
+  const Vector3d axis = arc.turn.stableNormalized();
+  const Vector3d across = axis.cross(arc.arm), outward = across.cross(axis);
+  const double half = std::sin(0.5 * share * angle);
+  return std::sin(share * angle) * across - 2.0 * half * half * outward;
+}
+
 }  // namespace
+
+Vector3d ShaftArc::beside_line(double time) const {
+  if (turn.isZero(0.0) || time == 0.0 || time == 1.0) return Vector3d::Zero();
+  return displacement(*this, time) - time * displacement(*this, 1.0);
+}
+
+ShaftArc ShaftArc::part(double begin, double end) const {
+  return {(end - begin) * turn, arm + displacement(*this, begin)};
+}
+
+double ShaftMotion::deviation() const { return std::max(arcs[0].deviation(), arcs[1].deviation()); }
+
+ShaftArc EndCarrier::arc_to(const EndCarrier& next) const {
+  const Eigen::AngleAxisd turn(next.orientation * orientation.conjugate());
+  return {turn.angle() * turn.axis(), arm};
+}
 
 RigidMotion::RigidMotion(const Eigen::Isometry3d& start, const Eigen::Isometry3d& end)
     : start_(orthonormal(start)), end_(orthonormal(end)), mid_orientation_(start_.linear()) {
@@ -45,30 +75,32 @@ CoreMotion::CoreMotion(const ConvexCore& core, const RigidMotion& motion)
       end_(motion.end() * core),
       in_link_(core),
       link_(&motion),
-      arm_(longest_arm(core, motion)) {}
+      arm_(longest_arm(core, motion)),
+      // A curve deviates from its chord by at most an eighth of its acceleration, arm * angle^2.
+      deviation_(arm_ * motion.angle() * motion.angle() / 8.0) {}
 
 ConvexCore CoreMotion::at(double time) const {
   if (time == 0.0) return start_;
   if (time == 1.0) return end_;
   if (link_) return link_->at(time) * in_link_;
-  return ShaftMotion{start_.axis(), end_.axis()}.at(time);
+  if (deviation_ == 0.0) return ShaftMotion{start_.axis(), end_.axis()}.at(time);
+  return ShaftMotion{start_.axis(), end_.axis(), arcs_}.at(time);
 }
 
 double CoreMotion::farthest_move() const {
   if (link_) return link_->origin_displacement() + arm_ * link_->angle();
+  // The speed of an arc differs from its mean by at most half of its acceleration.
   return std::max((end_.points[0] - start_.points[0]).norm(),
-                  (end_.points[1] - start_.points[1]).norm());
+                  (end_.points[1] - start_.points[1]).norm()) +
+         4.0 * deviation_;
 }
 
 double CoreMotion::chord_deviation(double duration) const {
-  if (!link_) return 0.0;
-  // A curve deviates from its chord by at most an eighth of its acceleration, arm * angle^2.
-  const double angle = duration * link_->angle();
-  return arm_ * angle * angle / 8.0;
+  return duration * duration * deviation_;
 }
 
 double CoreMotion::chord_deviation(double duration, const Eigen::Vector3d& normal) const {
-  return link_ ? link_->axis().cross(normal).norm() * chord_deviation(duration) : 0.0;
+  return chord_deviation(duration) * (link_ ? link_->axis().cross(normal).norm() : 1.0);
 }
 
 double CoreMotion::largest_coordinate() const {

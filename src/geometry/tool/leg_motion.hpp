@@ -43,11 +43,13 @@ class RigidMotion {
 };
 
 /// One leg of the path of a part's core, in the organ's frame [m]. If the core is the axis of a
-/// shaft, its ends move linearly. If it belongs to a link, it moves rigidly with the link.
+/// shaft, its ends move linearly or on arcs. If it belongs to a link, it moves rigidly with the
+/// link.
 class CoreMotion {
  public:
   // The core of a shaft. NOLINTNEXTLINE(google-explicit-constructor)
-  CoreMotion(const ShaftMotion& shaft) : start_(shaft.start), end_(shaft.end) {}
+  CoreMotion(const ShaftMotion& shaft)
+      : start_(shaft.start), end_(shaft.end), arcs_(shaft.arcs), deviation_(shaft.deviation()) {}
   /// `core` is in the link's frame. `motion` must outlive this object.
   CoreMotion(const ConvexCore& core, const RigidMotion& motion);
 
@@ -73,9 +75,11 @@ class CoreMotion {
 
  private:
   ConvexCore start_, end_;
+  ShaftArcs arcs_;  ///< how the ends of a shaft's axis move
   ConvexCore in_link_;
   const RigidMotion* link_ = nullptr;
-  double arm_ = 0.0;  ///< [m] upper bound of RigidMotion::arm() for the points of the core
+  double arm_ = 0.0;        ///< [m] upper bound of RigidMotion::arm() for the points of the core
+  double deviation_ = 0.0;  ///< [m] chord_deviation() of the whole leg
 };
 
 }  // namespace organ_collision

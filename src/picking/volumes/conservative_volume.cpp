@@ -171,8 +171,11 @@ ViewingVolume cut_box(const Ends& ends, double radius, double extent, const Roun
   return volume;
 }
 
+// If the ends of the axis move on arcs, the volume of their linear motion is grown by the
+// deviation.
 ViewingVolume swept_volume(const ShaftMotion& motion, double radius, double extent,
                            const Rounding& rounding) {
+  radius += motion.deviation();
   const Ends ends(motion);
   const double reach = std::max(extent, ends.extent() + radius);
   if (const auto volume = wedge(ends, radius, reach, rounding)) return *volume;

@@ -6,6 +6,7 @@
 
 #include "geometry/tool/least_rotation.hpp"
 #include "markers.hpp"
+#include "query/step.hpp"
 #include "ros/messages/text.hpp"
 
 namespace organ_collision {
@@ -293,7 +294,8 @@ void add_swept(const Tool& tool, const std::vector<const SceneStep*>& steps,
   std::size_t legs = 0;
   for (auto step = steps.rbegin(); step != steps.rend() && legs < kMostLegs; ++step) {
     const double share = visibility((*step)->time, now);
-    const ToolPath& path = (*step)->path;
+    ToolPath finer;
+    const ToolPath& path = with_subdivided_rotations((*step)->path, finer);
     for (std::size_t i = path.size(); i-- > 1 && legs < kMostLegs; ++legs) {
       add_leg(tool, path[i - 1], path[i], colours::faded(kSwept, share), swept);
     }

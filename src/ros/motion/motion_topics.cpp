@@ -31,6 +31,15 @@ std::string contents(const TransformStamped& transform) {
                      ", ", p.z, ") and the rotation (", q.x, ", ", q.y, ", ", q.z, ", ", q.w, ")");
 }
 
+/// Whether the buffer has this transform, or does not tell. Its frame has one with this stamp.
+bool is_known(const TransformBuffer& buffer, const TransformStamped& transform) {
+  constexpr double kSame = 1e-9;  // [m], [1]
+  const auto known = look_up(buffer, tf_frame(transform.header.frame_id),
+                             tf_frame(transform.child_frame_id), transform.header.stamp);
+  return !known.found ||
+         (known.found->value.matrix() - to_eigen(transform.transform).matrix()).isZero(kSame);
+}
+
 /// Why a pose is illegal; empty if it is legal.
 std::string fault(const PoseStamped& pose, double max_ahead_sec) {
   const auto& p = pose.pose.position;
@@ -139,6 +148,11 @@ void MotionTopics::take_transforms(const tf2_msgs::TFMessage& message, const std
       if (fault.empty() && !transforms_.add(transform, authority, resting)) {
         const bool is_repeated = !resting && transforms_.has(frame, stamp);
         if (!is_repeated) fault = contents(transform);
+        if (is_repeated && !is_known(transforms_, transform)) {
+          fault = concatenate("the stamp ", stamp,
+                              " came before, with another pose; only the "
+                              "first pose counts");
+        }
       }
     } catch (const std::runtime_error& error) {
       fault = error.what();

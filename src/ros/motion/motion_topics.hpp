@@ -40,8 +40,8 @@ class MotionTopics {
 
   /// Adds the transforms of a message. A transform that tf2 refuses, or whose stamp is too far
   /// ahead of the clock, is counted as rejected. A transform whose frame and stamp are known is
-  /// left out and not counted, because senders repeat transforms. `authority`: the sender.
-  /// `resting`: the message is from /tf_static.
+  /// left out. It is counted only if it has another pose, because senders repeat transforms.
+  /// `authority`: the sender. `resting`: the message is from /tf_static.
   void take_transforms(const tf2_msgs::TFMessage& message, const std::string& authority,
                        bool resting);
   /// Takes a pose of the tool's tip (take_tip()), or of the frame in which the tip's poses are

@@ -23,7 +23,9 @@ struct SampledPath {
 /// time in a query, so redundant samples are dropped: TF interpolates between transforms, so that
 /// many samples lie on the straight motion between their neighbours. What is dropped changes the
 /// path by at most 1e-9 m at the ends of the axis and by at most 1e-6 m at all points of the links.
-/// A link moves straight if it moves as a RigidMotion; chains of joints do so only roughly.
+/// A link moves straight if it moves as a RigidMotion, and an end of the axis if it moves linearly
+/// or, with a body that carries it (ToolPose::carriers), on one arc. Chains of joints do so only
+/// roughly.
 class PathBuilder {
  public:
   /// The path starts at fraction 0 with the pose `begin`.
@@ -32,6 +34,12 @@ class PathBuilder {
   /// Adds a sample. `fraction`: rises from call to call, up to 1.
   void add(double fraction, const ToolPose& pose);
 
+  /// Whether the tool moves so far between two poses that what it does in between may matter: a
+  /// curve with a radius of 1 cm or more may deviate by more than 1e-6 m from its chord.
+  bool is_far(const ToolPose& from, const ToolPose& to) const;
+  /// Whether the pose half way between two poses is more than 1e-6 m from the straight motion.
+  bool is_bent(const ToolPose& from, const ToolPose& half_way, const ToolPose& to) const;
+
   /// The path through all samples. Its first and last waypoints are as given, except that a trocar
   /// that moved by at most 1e-9 m is at rest. If there are more than `legs_max` legs (at least 1),
   /// the waypoints that deviate least are dropped, with the algorithm of Douglas and Peucker
@@ -39,9 +47,14 @@ class PathBuilder {
   /// it is above 1e-6 m, `unknown` tells it.
   SampledPath take(std::size_t legs_max);
 
+  struct Sample {
+    double fraction;
+    ToolPose pose;
+  };
+
  private:
   std::vector<double> reaches_;  ///< [m] of each link: no point is farther from its origin
-  ToolPath path_;
+  std::vector<Sample> path_;
   double dropped_deviation_ = 0.0;  ///< sum of those dropped from the last leg, in tolerances
 };
 

@@ -1,6 +1,7 @@
 #include "tool_poses.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -17,11 +18,16 @@ namespace {
 /// to a second.
 constexpr std::size_t kMostRead = 1000;
 
-std::string without_link(const Tool& tool, std::size_t link,
-                         const Lookup<Eigen::Isometry3d>& lookup) {
-  const std::string joint = lookup.is_late ? "" : tool.joints[link];
+/// [m] A shorter arm makes no arc that matters.
+constexpr double kNoArm = 1e-12;
+
+/// [ns] Poses that are nearer in time have none in between that is looked up.
+constexpr std::int64_t kShortest = 2000;
+
+std::string link_of(const Tool& tool, std::size_t link, bool is_late) {
+  const std::string joint = is_late ? "" : tool.joints[link];
   return "link '" + tool.links[link].name + "' of tool '" + tool.parameters.name + "'" +
-         (joint.empty() ? "" : " (is joint '" + joint + "' published?)") + ": " + lookup.why_not;
+         (joint.empty() ? "" : " (is joint '" + joint + "' published?)") + ": ";
 }
 
 bool is_near(const ToolPose& pose) {
@@ -42,6 +48,20 @@ double samples_between(double gap_sec, double spacing_sec) {
   return std::max(0.0, std::ceil(gap_sec / spacing_sec - 1e-6) - 1.0);
 }
 
+/// What carries the point `end` of a frame. TF moves the origin of a frame linearly between two
+/// transforms, and a frame that is fixed to another one moves with that one.
+EndCarrier carrier_of(const TransformBuffer& buffer, const std::string& frame,
+                      const Eigen::Isometry3d& T_organ_frame, const Eigen::Vector3d& end) {
+  const std::string name = buffer.carrier(frame);
+  if (name.empty()) return {};
+  const auto in_carrier = look_up(buffer, name, frame, ros::Time(0));
+  if (!in_carrier.found) return {};
+  const Eigen::Isometry3d T_organ_carrier = T_organ_frame * in_carrier.found->value.inverse();
+  const Eigen::Vector3d arm = end - T_organ_carrier.translation();
+  if (arm.isZero(kNoArm)) return {};
+  return {Eigen::Quaterniond(T_organ_carrier.linear()).normalized(), arm};
+}
+
 }  // namespace
 
 TransformBuffer::Frames swept_frames(const Tool& tool) {
@@ -50,6 +70,10 @@ TransformBuffer::Frames swept_frames(const Tool& tool) {
   if (parameters.has_shaft()) frames = {parameters.trocar_frame, parameters.tip_frame};
   for (const Link& link : tool.links) frames.push_back(parameters.link_frame(link.name));
   return frames;
+}
+
+std::size_t ToolPoses::most_read() const {
+  return std::max(kMostRead, static_cast<std::size_t>(sampling_.samples_max));
 }
 
 void ToolPoses::set_answered(const Tool& tool, const std::string& organ_frame, ros::Time time) {
@@ -69,7 +93,7 @@ std::vector<ros::Time> ToolPoses::sample_times(const Tool& tool, const std::stri
                                buffer_.getCacheLength().toSec(), " s)");
   }
   const std::size_t heard = stamps.size();
-  const std::size_t most = std::max(kMostRead, static_cast<std::size_t>(sampling_.samples_max));
+  const std::size_t most = most_read();
   if (heard > most) {
     for (std::size_t i = 0; i < most; ++i) stamps[i] = stamps[i * heard / most];
     stamps.resize(most);
@@ -130,25 +154,32 @@ Lookup<ToolPose> ToolPoses::pose(const Tool& tool, const std::string& organ_fram
   };
   if (parameters.has_shaft()) {
     const auto trocar = look_up_frame(parameters.trocar_frame);
-    if (!trocar.found) return {std::nullopt, trocar.why_not};
+    if (!trocar.found)
+      return {std::nullopt, why_not(parameters, organ_frame, parameters.trocar_frame, trocar)};
     const auto tip = look_up_frame(parameters.tip_frame);
-    if (!tip.found) return {std::nullopt, unless_silent(parameters, tip.why_not)};
+    if (!tip.found)
+      return {std::nullopt, why_not(parameters, organ_frame, parameters.tip_frame, tip)};
     pose.axis = {trocar.found->value * parameters.trocar_offset,
                  tip.found->value * parameters.tip_offset};
+    pose.carriers = {
+        carrier_of(buffer_, parameters.trocar_frame, trocar.found->value, pose.axis.trocar),
+        carrier_of(buffer_, parameters.tip_frame, tip.found->value, pose.axis.tip)};
   }
   pose.links.reserve(tool.links.size());
   for (std::size_t i = 0; i < tool.links.size(); ++i) {
-    const auto link = look_up_frame(parameters.link_frame(tool.links[i].name));
+    const std::string frame = parameters.link_frame(tool.links[i].name);
+    const auto link = look_up_frame(frame);
     if (!link.found) {
-      return {std::nullopt, unless_silent(parameters, without_link(tool, i, link))};
+      return {std::nullopt,
+              why_not(parameters, organ_frame, frame, link, link_of(tool, i, link.is_late))};
     }
     pose.links.push_back(link.found->value);
   }
   if (with_tip_of_links && parameters.has_tip_of_links()) {
     const auto tip = look_up_frame(parameters.tip_frame);
     if (!tip.found) {
-      return {std::nullopt,
-              unless_silent(parameters, "tip of tool '" + parameters.name + "': " + tip.why_not)};
+      return {std::nullopt, why_not(parameters, organ_frame, parameters.tip_frame, tip,
+                                    "tip of tool '" + parameters.name + "': ")};
     }
     pose.tip = tip.found->value * parameters.tip_offset;
   }
@@ -180,11 +211,29 @@ bool ToolPoses::is_disproved(const Tool& tool, const std::string& organ_frame,
   return until && stamp.toSec() > until->toSec() + kClockTolerance;
 }
 
-std::string ToolPoses::unless_silent(const ToolParameters& tool, const std::string& why_not) const {
-  if (tool.tip_pose_topic.empty()) return why_not;
-  const std::string refusal = buffer_.refusal(tool.tip_frame);
-  if (!refusal.empty()) return "the last pose on " + tool.tip_pose_topic + " " + refusal;
-  return buffer_.has_heard(tool.tip_frame) ? why_not : "no pose came on " + tool.tip_pose_topic;
+std::string ToolPoses::why_not(const ToolParameters& tool, const std::string& organ_frame,
+                               const std::string& frame, const Lookup<Eigen::Isometry3d>& lookup,
+                               const std::string& what) const {
+  const std::string &topic = tool.tip_pose_topic, &tip = tool.tip_frame;
+  if (!topic.empty()) {
+    const std::string refusal = buffer_.refusal(tip);
+    if (!refusal.empty()) return "the last pose on " + topic + " " + refusal;
+    if (!buffer_.has_heard(tip)) return "no pose came on " + topic;
+  }
+  if (lookup.unknown_frame == organ_frame) {
+    return lookup.why_not + "; it is the frame of the organ or of the node, not of the tool";
+  }
+  std::string why = what + lookup.why_not;
+  if (topic.empty() || !lookup.is_late) return why;
+  const auto oldest = buffer_.oldest_transform(frame, {organ_frame});
+  const auto of_organ = buffer_.oldest_transform(organ_frame, {frame});
+  if (!oldest || oldest->frame != tip) return why;
+  if (of_organ && of_organ->stamp < oldest->stamp) return why;
+  const auto rate = buffer_.rate(tip);
+  return concatenate(
+      why, ": poses on ", topic,
+      rate ? concatenate(" came at ", std::round(10.0 * *rate) / 10.0, " Hz") : " come seldom",
+      "; see 'Send poses also while nothing moves' in doc/tools.md");
 }
 
 SampledPath ToolPoses::path(const Tool& tool, const std::string& organ_frame,
@@ -192,18 +241,42 @@ SampledPath ToolPoses::path(const Tool& tool, const std::string& organ_frame,
   const auto duration = static_cast<double>(elapsed(from.stamp, to.stamp));
   PathBuilder path(tool.links, from.value);
   SampledPath sampled;
+  std::size_t more = most_read();
+  Timed<ToolPose> last = from;
+  // Adds a sample, and before it as many others as are needed to follow a bent motion.
+  const auto add = [&](const Timed<ToolPose>& sample) {
+    std::vector<Timed<ToolPose>> ahead = {sample};
+    while (!ahead.empty()) {
+      const Timed<ToolPose>& next = ahead.back();
+      const std::int64_t gap = elapsed(last.stamp, next.stamp);
+      if (more > 0 && gap > kShortest && path.is_far(last.value, next.value)) {
+        ros::Time half_way;
+        half_way.fromNSec(last.stamp.toNSec() + static_cast<std::uint64_t>(gap / 2));
+        auto between = pose(tool, organ_frame, half_way, false);
+        if (between.found && is_near(between.found->value) &&
+            path.is_bent(last.value, between.found->value, next.value)) {
+          --more;
+          ahead.push_back(*std::move(between.found));
+          continue;
+        }
+      }
+      path.add(static_cast<double>(elapsed(from.stamp, next.stamp)) / duration, next.value);
+      last = std::move(ahead.back());
+      ahead.pop_back();
+    }
+  };
   for (const ros::Time time : sample_times(tool, organ_frame, from.stamp, to.stamp, sampled)) {
     // A sample that is too far away to be evaluated must not make the whole step fail.
     const auto between = pose(tool, organ_frame, time, false);
     if (between.found && is_near(between.found->value)) {
-      path.add(static_cast<double>(elapsed(from.stamp, time)) / duration, between.found->value);
+      add({between.found->value, time});
     } else if (sampled.unknown.empty()) {
       sampled.unknown =
           concatenate("the tool's pose at ", time, " s is not known: ",
                       between.found ? "it is too far away to be evaluated" : between.why_not);
     }
   }
-  path.add(1.0, to.value);
+  add(to);
   SampledPath built = path.take(static_cast<std::size_t>(sampling_.samples_max));
   sampled.path = std::move(built.path);
   sampled.samples_cut += built.samples_cut;

@@ -44,10 +44,12 @@ class ToolPoses {
   bool has_pose(const Tool& tool, const std::string& organ_frame, ros::Time time) const;
 
   /// The path from one known pose to another. It is sampled at each stamp that TF received between
-  /// the two poses and, where stamps are further apart than sample_sec, also between them. Samples
-  /// that TF cannot give are dropped. PathBuilder drops redundant samples, and reduces the others
-  /// to samples_max. At most max(1000, samples_max) of the stamps are read, evenly spread. If there
-  /// are more stamps, or if TF has forgotten some, a part of the path is unknown.
+  /// the two poses and, where stamps are further apart than sample_sec, also between them. Where
+  /// the motion is bent, it is sampled more densely, until the poses half way between samples are
+  /// within 1e-6 m of the path. Samples that TF cannot give are dropped. PathBuilder drops
+  /// redundant samples, and reduces the others to samples_max. At most max(1000, samples_max) of
+  /// the stamps are read, evenly spread. If there are more stamps, or if TF has forgotten some, a
+  /// part of the path is unknown.
   SampledPath path(const Tool& tool, const std::string& organ_frame, const Timed<ToolPose>& from,
                    const Timed<ToolPose>& to) const;
 
@@ -67,9 +69,14 @@ class ToolPoses {
   void set_answered(const Tool& tool, const std::string& organ_frame, ros::Time time);
 
  private:
-  /// Why a tool's pose is not known. If no message ever came on the tool's pose topic, or the last
-  /// one was refused, this is the reason; otherwise the reason is `why_not`.
-  std::string unless_silent(const ToolParameters& tool, const std::string& why_not) const;
+  /// The most stamps that are read for a step, and the most poses that are added between them.
+  std::size_t most_read() const;
+  /// Why a tool's pose is not known, if `lookup` of `frame` found nothing. `what`: what was looked
+  /// up, put before the reason unless the organ's frame is missing. If no message ever came on the
+  /// tool's pose topic, or the last one was refused, this is the reason.
+  std::string why_not(const ToolParameters& tool, const std::string& organ_frame,
+                      const std::string& frame, const Lookup<Eigen::Isometry3d>& lookup,
+                      const std::string& what = "") const;
   std::vector<ros::Time> sample_times(const Tool& tool, const std::string& organ_frame,
                                       ros::Time from, ros::Time to, SampledPath& lost) const;
 

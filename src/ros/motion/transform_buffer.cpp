@@ -30,6 +30,12 @@ void insert(std::vector<Frame>& frames, Frame frame) {
   if (!contains(frames, frame)) frames.push_back(frame);
 }
 
+/// Whether tf2 would not keep a transform with this stamp beside those with the rising `stamps`.
+bool is_too_old(ros::Time stamp, const std::deque<ros::Time>& stamps, ros::Duration kept) {
+  return !stamps.empty() && stamp < stamps.back() &&
+         stamps.back().toNSec() - stamp.toNSec() > static_cast<std::uint64_t>(kept.toNSec());
+}
+
 using NotFound = Lookup<Eigen::Isometry3d>;
 
 NotFound late(const std::string& target, const std::string& source, ros::Time latest,
@@ -46,7 +52,7 @@ NotFound not_found(const tf2::BufferCore& buffer, const std::string& target,
                    const std::string& source, ros::Time time, const std::runtime_error& error) {
   for (const std::string& frame : {source, target}) {
     if (buffer._frameExists(frame)) continue;
-    return {std::nullopt, "frame '" + frame + "' is unknown to TF"};
+    return {std::nullopt, "frame '" + frame + "' is unknown to TF", false, frame};
   }
   if (dynamic_cast<const tf2::ConnectivityException*>(&error) != nullptr) {
     return {std::nullopt, "frame '" + source + "' is not connected to '" + target + "' on TF"};
@@ -66,12 +72,15 @@ NotFound not_found(const tf2::BufferCore& buffer, const std::string& target,
 bool TransformBuffer::add(const geometry_msgs::TransformStamped& transform,
                           const std::string& authority, bool resting) {
   const ros::Time stamp = transform.header.stamp;
-  const bool taken = setTransform(transform, authority, resting);
   const std::string name = tf_frame(transform.child_frame_id);
   const Frame* const known = find(name);
-  // A repeated transform is not late.
-  if (!resting && known && stamp <= known->answered && !has(name, stamp)) ++late_;
-  if (!taken) return false;
+  if (!resting && known) {
+    // tf2 would log each of them. A repeated transform is not late.
+    if (has(name, stamp)) return false;
+    if (stamp <= known->answered) ++late_;
+    if (is_too_old(stamp, known->stamps, getCacheLength())) return false;
+  }
+  if (!setTransform(transform, authority, resting)) return false;
   const std::string parent_name = tf_frame(transform.header.frame_id);
   Frame &frame = frames_[name], &parent = frames_[parent_name];
   frame.name = name;
@@ -157,9 +166,29 @@ bool TransformBuffer::goes_on(const std::string& target, const Frames& sources, 
   });
 }
 
+std::optional<double> TransformBuffer::rate(const std::string& frame) const {
+  const Frame* const known = find(frame);
+  if (!known || known->stamps.size() < 2) return std::nullopt;
+  const double latest = known->stamps.back().toSec();
+  const auto is_before = [latest](ros::Time stamp, double ago) {
+    return stamp.toSec() < latest - ago;
+  };
+  const auto first =
+      std::min(std::lower_bound(known->stamps.begin(), known->stamps.end(), 1.0, is_before),
+               known->stamps.end() - 2);
+  return static_cast<double>(known->stamps.end() - first - 1) / (latest - first->toSec());
+}
+
 bool TransformBuffer::has_heard(const std::string& frame) const {
   const Frame* const known = find(frame);
   return known && !known->stamps.empty();
+}
+
+std::string TransformBuffer::carrier(const std::string& frame) const {
+  for (const Frame* const above : upward(frame, 1)) {
+    if (!above->heard.isZero()) return above->name;
+  }
+  return "";
 }
 
 TransformBuffer::Stamps TransformBuffer::stamps_between(const std::string& target,

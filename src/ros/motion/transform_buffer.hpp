@@ -31,7 +31,9 @@ class TransformBuffer : public tf2::BufferCore {
  public:
   using Frames = std::vector<std::string>;
 
-  /// Adds a transform; `resting`: it is static, as on /tf_static. Returns false if tf2 refuses it.
+  /// Adds a transform; `resting`: it is static, as on /tf_static. Returns false if tf2 refuses it,
+  /// or would refuse it because the frame has a transform with this stamp (has()), or one that is
+  /// later by more than tf2 keeps transforms.
   /// Throws std::runtime_error for extreme stamps, as tf2 does.
   bool add(const geometry_msgs::TransformStamped& transform, const std::string& authority,
            bool resting = false);
@@ -49,8 +51,14 @@ class TransformBuffer : public tf2::BufferCore {
   /// that is earlier by more than kClockTolerance. Until the frame's stamps reach the disproved
   /// stamp, its transforms are believed only up to the stamp that came last.
   std::optional<ros::Time> believed_until(const std::string& target, const Frames& sources) const;
+  /// [Hz] How often transforms of this frame came within the last second of its stamps;
+  /// std::nullopt: fewer than two came.
+  std::optional<double> rate(const std::string& frame) const;
   /// Whether the record has a transform of this frame. Static transforms are not recorded.
   bool has_heard(const std::string& frame) const;
+  /// The frame that carries `frame`: itself, or the nearest frame above it that is not on static
+  /// transforms alone. Empty if there is none: then `frame` rests.
+  std::string carrier(const std::string& frame) const;
   /// Notes why the last pose of a frame was refused; empty: it was taken.
   void set_refusal(const std::string& frame, const std::string& why) { refusals_[frame] = why; }
   /// Why the last pose of a frame was refused; empty if it was taken, or if none came.
@@ -128,7 +136,8 @@ template <typename T>
 struct Lookup {
   std::optional<Timed<T>> found;
   std::string why_not;
-  bool is_late = false;  ///< the newest transform is older than the time asked for
+  bool is_late = false;            ///< the newest transform is older than the time asked for
+  std::string unknown_frame = {};  ///< the frame that is unknown to TF, if this is the reason
 };
 
 /// The transform T_target_source at a time. Time zero means the latest time at which all transforms

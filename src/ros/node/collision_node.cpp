@@ -23,6 +23,7 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
       contacts_(core_.private_node().advertise<ContactArray>(names::kContacts, kContactQueue)),
       touch_events_(core_.private_node().advertise<TouchEvent>(names::kTouches, kTouchQueue)),
       touches_([this](const TouchEvent& event) { touch_events_.publish(event); }),
+      swaps_(core_.tools().size()),
       markers_(core_.private_node(), core_.parameters().markers, core_.tools()),
       pipeline_(core_.parameters(), core_.tools(), counters_.rejected,
                 {[this](const ToolStep& step) { publish(step); },
@@ -73,6 +74,7 @@ NodeCore<NodeParameters>::Callbacks CollisionNode::callbacks() {
     forget_touches(kept);
     pipeline_.steps.change_tools(kept);
     markers_.set_tools(core_.tools());
+    swaps_.assign(core_.tools().size(), {});
   };
   callbacks.break_down = [this](const std::string& why) { break_down(why); };
   return callbacks;
@@ -98,6 +100,20 @@ void CollisionNode::publish(const ToolStep& step) {
   ++counters_.published;
   counters_.contacts.count();
   markers_.add(step);
+  if (answer.status == ContactArray::OK && step.moves) watch_ends(step);
+}
+
+/// Warns if trocar and tip of a tool seem to be swapped. If one body carries both, as with a
+/// pointer, either may move more.
+void CollisionNode::watch_ends(const ToolStep& step) {
+  const ToolParameters& tool = core_.tools()[step.tool].parameters;
+  const auto doubt =
+      swaps_[step.tool].follow(tool, step.request.path, std::chrono::steady_clock::now());
+  if (!doubt) return;
+  const TransformBuffer& transforms = pipeline_.inbox.transforms;
+  const bool is_one_body =
+      transforms.carrier(tool.trocar_frame) == transforms.carrier(tool.tip_frame);
+  if (!is_one_body) ROS_WARN("%s", doubt->c_str());
 }
 
 /// Counts an accepted shape. If the message brought no shape, publishes for each tool why.

@@ -31,6 +31,7 @@ class CollisionNode {
 
   Core::Callbacks callbacks();
   void publish(const ToolStep& step);
+  void watch_ends(const ToolStep& step);
   void report(const OrganUpdate& update);
   void forget_touches(const KeptTools& kept);
   void break_down(const std::string& why);
@@ -54,6 +55,7 @@ class CollisionNode {
   QueueThread query_thread_, batch_thread_;
   ros::Publisher contacts_, touch_events_;
   TouchTracker touches_;
+  std::vector<SwapWatch> swaps_;  ///< of each tool
   MarkerPublisher markers_;
   CollisionPipeline pipeline_;
   QueryServices services_;

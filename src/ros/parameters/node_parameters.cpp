@@ -66,11 +66,6 @@ void parse_shaft(const ParameterGroup& tool, ToolParameters& parsed) {
   parsed.radius = tool.number(names::kRadius, {}, kPositive);
   parse_tip(tool, parsed.name + "_tip", parsed);
   parsed.trocar_offset = offset(tool, names::kTrocarOffset);
-  if (parsed.tip_frame == parsed.trocar_frame && parsed.tip_offset == parsed.trocar_offset) {
-    tool.refuse(names::kTipFrame,
-                "must be another frame than trocar_frame, unless tip_offset and trocar_offset "
-                "differ");
-  }
 }
 
 void parse_links(const ParameterGroup& tool, ToolParameters& parsed) {
@@ -97,13 +92,18 @@ void parse_clearance(const ParameterGroup& tool, ToolParameters& parsed) {
 }
 
 /// How a haptic proxy may move the tool. By default, a tool with a shaft moves through a trocar,
-/// and any other tool is free.
-ProxyFreedom parse_freedom(const ParameterGroup& tool, bool has_shaft) {
-  const std::string fallback = has_shaft ? "trocar" : "free";
+/// and any other tool is free. A ball has no trocar.
+ProxyFreedom parse_freedom(const ParameterGroup& tool, const ToolParameters& parsed) {
+  const bool has_trocar = parsed.has_shaft() && !parsed.is_ball();
+  const std::string fallback = has_trocar ? "trocar" : "free";
   const std::string freedom = tool.choice(names::kFreedom, fallback, {"trocar", "free"});
   if (freedom == "free") return ProxyFreedom::kFree;
-  if (!has_shaft)
+  if (parsed.is_ball()) {
+    tool.refuse(names::kFreedom, "must be free for a ball, whose trocar and tip are one point");
+  }
+  if (!has_trocar) {
     tool.refuse(names::kFreedom, "goes with a shaft; must be free without " + kShaftKeys);
+  }
   return ProxyFreedom::kTrocar;
 }
 
@@ -136,7 +136,7 @@ ToolParameters parse_tool(const ParameterGroup& tool) {
     }
   }
   parse_clearance(tool, parsed);
-  parsed.freedom = parse_freedom(tool, has_shaft);
+  parsed.freedom = parse_freedom(tool, parsed);
   return parsed;
 }
 
@@ -166,7 +166,8 @@ const std::vector<HelpEntry>& tool_keys() {
       {names::kTrocarOffset, "shaft; [0, 0, 0]", "[m] where the trocar is in trocar_frame"},
       {names::kTipFrame, "shaft, links; required for a shaft without tip_pose_topic",
        "the TF frame of the tip, or of a marker on the tool. With tip_pose_topic, its default is "
-       "the first link's frame, and NAME_tip for a shaft"},
+       "the first link's frame, and NAME_tip for a shaft. If it is trocar_frame, with the same "
+       "offset, the tool is a ball"},
       {names::kTipOffset, "shaft, links; [0, 0, 0]",
        "[m] where the tip is in tip_frame, for example from the pivot calibration of a marker"},
       {names::kRadius, "shaft; required", "[m] the radius of the shaft"},
@@ -183,7 +184,7 @@ const std::vector<HelpEntry>& tool_keys() {
        "[m] answers have the clearance of the tool up to this distance; 0: they have none"},
       {names::kMaxNear, "every tool; 0",
        "answers list at most so many faces that are within the margin and not touched"},
-      {names::kFreedom, "every tool; trocar with a shaft, else free",
+      {names::kFreedom, "every tool; trocar with a shaft that is no ball, else free",
        "how tissue can move the tool in haptic_proxy: trocar (about its trocar) or free"}};
   return keys;
 }

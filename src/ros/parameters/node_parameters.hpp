@@ -30,6 +30,10 @@ struct ToolParameters {
   Eigen::Vector3d tip_offset = Eigen::Vector3d::Zero();     ///< [m] the tip, in tip_frame
 
   bool has_shaft() const { return radius > 0.0; }
+  /// Whether the shaft is a ball: its trocar and tip are the same point.
+  bool is_ball() const {
+    return has_shaft() && tip_frame == trocar_frame && tip_offset == trocar_offset;
+  }
   /// Whether the tool has no shaft, and the tip in tip_frame counts as that of its links.
   bool has_tip_of_links() const { return !has_shaft() && !tip_frame.empty(); }
   /// The TF frame of a link.

@@ -76,6 +76,26 @@ TEST_F(MotionTopicsTest, WhatTfRefusesIsCountedButNoRepetition) {
   EXPECT_TRUE(buffer_.canTransform("world", "trocar", ros::Time(100.0)));
 }
 
+// tf2 logs each of them itself.
+TEST_F(MotionTopicsTest, ARepeatedStampWithAnotherPoseIsToldByTheNodeAlone) {
+  geometry_msgs::TransformStamped other = transform("tip", 1.0);
+  other.transform.translation.y = 0.5;
+  testing::internal::CaptureStderr();
+  take({transform("tip", 1.0), transform("tip", 1.0), other}, false);
+  EXPECT_EQ(rejected_.by_reason()["transform"].count, 1u);
+  EXPECT_NE(rejected_.by_reason()["transform"].latest.find("'tip': the stamp 1.000000000 came "
+                                                           "before, with another pose"),
+            std::string::npos)
+      << rejected_.by_reason()["transform"].latest;
+  for (int i = 0; i < 100; ++i) take({other}, false);
+  take({transform("tip", 100.0), transform("tip", 1.5)}, false);
+  for (int i = 0; i < 3; ++i) topics_.take_tip(0, pose_of("base", 5.0, {0.1, 0.1 * i, 0.3}));
+  const std::string log = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(log.find("TF_"), std::string::npos) << log;
+  EXPECT_EQ(rejected_.by_reason()["transform"].count, 102u);
+  EXPECT_EQ(rejected(), 2u);
+}
+
 TEST_F(MotionTopicsTest, PosesPlaceTheTip) {
   topics_.take_tip(0, pose_of("base", 1.0, {0.1, 0.2, 0.3}));
   topics_.take_tip(0, pose_of("/base", 2.0, {0.3, 0.2, 0.1}));

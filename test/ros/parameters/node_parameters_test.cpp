@@ -154,8 +154,6 @@ TEST(ToolParameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
       {shaft, "tip_frame", too_long, {"at most 256 bytes"}},
       {shaft, "tip_frame", "", {"not empty"}},
       {shaft, "tip_frame", "/", {"'/'", "TF frame"}},
-      {shaft, "tip_frame", "hook_trocar", {"hook_trocar", "other"}},
-      {shaft, "tip_frame", "/hook_trocar", {"hook_trocar", "other"}},
       {shaft, "margin", -0.25, {"-0.25", "at least 0"}},
       {shaft, "margin", std::nan(""), {"nan", "at least 0"}},
       {shaft, "margin", kUnlimited, {"inf", "at least 0"}},
@@ -217,12 +215,25 @@ TEST(ToolParameters, TheTipOfATrackedToolIsAPointOfItsMarker) {
   EXPECT_EQ(pointer.tip_frame, pointer.trocar_frame);
   EXPECT_EQ(pointer.tip_offset, Eigen::Vector3d(0.0, -0.0132, 1.0));
   EXPECT_EQ(pointer.trocar_offset, Eigen::Vector3d(Eigen::Vector3d::Zero()));
-  tool["trocar_offset"] = tool["tip_offset"];
-  expect_words(refusal(tool), {"tip_frame", "another frame", "unless tip_offset"});
+  EXPECT_FALSE(pointer.is_ball());
   XmlRpcValue wrist = links();
   wrist["tip_frame"] = "wrist";
   wrist["tip_offset"] = list_of({0, 0, 0.5});
   EXPECT_EQ(parsed(wrist).tip_offset.z(), 0.5);
+}
+
+TEST(ToolParameters, ATipAtTheTrocarMakesABall) {
+  XmlRpcValue tool = shaft();
+  tool["tip_frame"] = "/hook_trocar";
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_TRUE(parsed(tool).is_ball());
+    EXPECT_EQ(parsed(tool).freedom, ProxyFreedom::kFree);
+    tool["trocar_offset"] = tool["tip_offset"] = list_of({0, 0.1, 0.2});
+  }
+  tool["freedom"] = "trocar";
+  expect_words(refusal(tool), {"freedom", "free for a ball"});
+  tool["tip_offset"] = list_of({0, 0, 0.2});
+  EXPECT_FALSE(parsed(tool).is_ball());
 }
 
 TEST(ToolParameters, AreAShaftOrLinksOrBoth) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
 namespace organ_collision {
 
@@ -14,16 +15,38 @@ struct ShaftAxis {
   Eigen::Vector3d at(double place) const { return trocar + place * (tip - trocar); }
 };
 
-/// One leg of a shaft's path: both ends of the axis move linearly from `start` to `end`.
+/// How an end of a shaft's axis moves during one leg if a rigid body carries it: on an arc beside
+/// the straight line. The origin of the body moves linearly. The body turns about a fixed direction
+/// at constant speed, by at most half a turn. Without a turn, the end moves linearly.
+struct ShaftArc {
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();  ///< [rad] rotation vector of the body's turn
+  Eigen::Vector3d arm = Eigen::Vector3d::Zero();   ///< [m] from origin to end, at time 0
+
+  /// [m] The place of the end at `time` in [0, 1] of the leg, minus its place on the straight line.
+  Eigen::Vector3d beside_line(double time) const;
+  /// [m] An upper bound of the length of beside_line(), for all times.
+  double deviation() const { return turn.norm() * turn.cross(arm).norm() / 8.0; }
+  /// The arc from the time `begin` to the time `end` of this one.
+  ShaftArc part(double begin, double end) const;
+};
+
+/// The arcs of trocar and tip.
+using ShaftArcs = std::array<ShaftArc, 2>;
+
+/// One leg of a shaft's path, from `start` to `end`.
 struct ShaftMotion {
-  ShaftAxis start;  ///< the axis at time 0
-  ShaftAxis end;    ///< the axis at time 1
+  ShaftAxis start;      ///< the axis at time 0
+  ShaftAxis end;        ///< the axis at time 1
+  ShaftArcs arcs = {};  ///< how its ends move in between; by default linearly
 
   /// The axis at `time` in [0, 1] of the leg.
   ShaftAxis at(double time) const {
-    return {start.trocar + time * (end.trocar - start.trocar),
-            start.tip + time * (end.tip - start.tip)};
+    return {start.trocar + time * (end.trocar - start.trocar) + arcs[0].beside_line(time),
+            start.tip + time * (end.tip - start.tip) + arcs[1].beside_line(time)};
   }
+  /// [m] An upper bound of the distance of any point of the axis from its place if both ends moved
+  /// linearly.
+  double deviation() const;
 };
 
 }  // namespace organ_collision
