@@ -222,8 +222,8 @@ TEST(Clearance, AndNearFacesAreThoseOfBruteForceUpToTheMargin) {
 
 /// A budget of which only this many steps are left.
 WorkBudget with_steps_left(std::uint64_t steps) {
-  WorkBudget budget = WorkBudget::for_approaches();
-  budget.spend(WorkBudget::kApproachStepsForEachPair * WorkBudget::kLeastPairs - steps);
+  WorkBudget budget = WorkBudget::for_clearance();
+  budget.spend(WorkBudget::kClearanceSteps - steps);
   return budget;
 }
 

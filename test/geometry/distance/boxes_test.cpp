@@ -158,13 +158,17 @@ TEST(FaceSearch, VisitsEveryFaceWithinTheBoundOnceAndFewOthers) {
     std::multiset<std::uint32_t> visited;
     search.visit(
         scene.organ(), scene.box, [&] { return bound; },
-        [&](std::uint32_t face) { visited.insert(face); });
+        [&](std::uint32_t face) {
+          visited.insert(face);
+          return true;
+        });
     double found = std::numeric_limits<double>::infinity(), least = found;
     search.visit(
         scene.organ(), scene.box, [&] { return found; },
         [&](std::uint32_t face) {
           found = std::min(found, scene.distance(face));
           ++nearer;
+          return true;
         });
     for (std::uint32_t face = 0; face < scene.after->face_count(); ++face) {
       const double distance = scene.distance(face);
