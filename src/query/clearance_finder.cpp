@@ -150,8 +150,8 @@ FaceContact ClearanceFinder::contact_of(const Step& step, const Approach& near) 
   return contact;
 }
 
-/// Measures faces against a part of the tool on one leg, or along the chord of a span. The step, the
-/// part and `on_leg` must outlive this.
+/// Measures faces against a part of the tool on one leg, or along the chord of a span. The step,
+/// the part and `on_leg` must outlive this.
 class ClearanceFinder::LegSearch {
  public:
   LegSearch(ClearanceFinder& finder, const Step& step, const LegSpan& span, const ToolPart& part,

@@ -94,10 +94,10 @@ struct CollisionResult {
   /// link that comes nearest to it. The fields are those of a contact, at the time of the closest
   /// approach instead of the first touch. `depth` is minus the distance at that time.
   std::vector<FaceContact> near;
-  /// Whether further faces are left out of `near`, because max_near faces are nearer.
+  /// Whether further faces within the margin are left out of `near`, because it has max_near faces.
   bool near_more = false;
-  /// The number of faces that may be within the margin but were not measured to the end, because
-  /// the query reached its work limit. `near` does not contain them.
+  /// An upper bound of the number of faces that may belong to `near` but were not measured to the
+  /// end, because the query reached its work limit. `near` does not contain them.
   std::size_t near_unresolved = 0;
   /// If asked for: how far the tool is from the organ.
   ToolClearance clearance;
