@@ -81,7 +81,6 @@ void ClearanceFinder::set_least(const Step& step, const CollisionRequest& reques
 }
 
 std::optional<Approach> ClearanceFinder::nearest(const Step& step, double distance_bound) {
-  leaves_out_unmeasured_ = false;
   nearest_.start(step.organ().face_count(), 1, distance_bound);
   find_approaches(step);
   const std::vector<Approach>& found = nearest_.found();
@@ -102,10 +101,8 @@ void ClearanceFinder::find_near(const Step& step, const CollisionRequest& reques
 void ClearanceFinder::find_near(const Step& step, const CollisionRequest& request,
                                 CollisionResult& result, const WorkBudget& budget) {
   budget_ = budget;
-  leaves_out_unmeasured_ = true;
   unmeasured_ = 0;
-  const std::size_t face_count = step.organ().face_count();
-  nearest_.start(face_count, request.max_near + 1, request.margin);
+  nearest_.start(step.organ().face_count(), request.max_near + 1, request.margin);
   for (const FaceContact& contact : result.contacts) nearest_.exclude(contact.face);
   find_approaches(step);
   for (const Approach& near : nearest_.sorted()) {
@@ -114,7 +111,7 @@ void ClearanceFinder::find_near(const Step& step, const CollisionRequest& reques
     result.near.push_back(contact_of(step, near));
     result.near.back().depth = -near.distance;
   }
-  result.near_unresolved = std::min(unmeasured_, face_count - result.near.size());
+  result.near_unresolved = std::min(unmeasured_, step.organ().face_count());
 }
 
 /// ToolClearance::closing. `end`: the nearest approach at the end of the step. `normal`: from the
@@ -197,7 +194,7 @@ class ClearanceFinder::LegSearch {
     } else {
       closest = closest_approach(on_leg_.core, motion, bound(), budget);
     }
-    if (budget.cuts() != cuts) finder_.note_unmeasured(face);
+    finder_.unmeasured_ += budget.cuts() - cuts;
     if (closest) turn_plane(closest->closest);
     return closest;
   }
@@ -296,13 +293,6 @@ void ClearanceFinder::measure_listed_faces(const Step& step, std::size_t leg,
       if (const auto closest = search.measure(face)) search.add(face, *closest);
     }
   });
-}
-
-/// Notes that a face was not measured to the end.
-void ClearanceFinder::note_unmeasured(std::uint32_t face) {
-  if (!leaves_out_unmeasured_) return;
-  nearest_.exclude(face);
-  ++unmeasured_;
 }
 
 }  // namespace organ_collision

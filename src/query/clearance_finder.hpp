@@ -42,14 +42,11 @@ class ClearanceFinder {
   void search_leg(const Step& step, std::size_t leg, const ToolPart& part);
   bool list_faces_near_chord(const Step& step, const LegSpan& span, const ToolPart& part);
   void measure_listed_faces(const Step& step, std::size_t leg, const ToolPart& part);
-  void note_unmeasured(std::uint32_t face);
 
   FaceSearch search_;
   WorkBudget budget_;  ///< the work of the present search
   NearestFaces nearest_;
   std::size_t unmeasured_ = 0;  ///< see CollisionResult::near_unresolved
-  /// Whether faces that are not measured to the end are left out.
-  bool leaves_out_unmeasured_ = false;
   std::vector<std::uint32_t> listed_;  ///< faces near the chord of the present span
   /// The separation [m] of the present part and the nearest face so far, on any leg of the present
   /// span. The plane at right angles to it excludes most of the other faces.

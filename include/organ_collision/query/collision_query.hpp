@@ -96,8 +96,8 @@ struct CollisionResult {
   std::vector<FaceContact> near;
   /// Whether further faces within the margin are left out of `near`, because it has max_near faces.
   bool near_more = false;
-  /// An upper bound of the number of faces that may belong to `near` but were not measured to the
-  /// end, because the query reached its work limit. `near` does not contain them.
+  /// At most so many faces were not measured to the end, because the query reached its work limit.
+  /// If it is above 0, nearer faces may be missing in `near`, and its distances are upper bounds.
   std::size_t near_unresolved = 0;
   /// If asked for: how far the tool is from the organ.
   ToolClearance clearance;
