@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <tuple>
 
+#include "geometry/distance/separating_plane.hpp"
 #include "geometry/distance/swept_box.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 
@@ -18,10 +18,9 @@ OrientedBox box_around(const Step& step, const LegSpan& span, const ToolPart& pa
   return SweptBox(part.shape->bounds, step.link_motion(span, part.link), 0.0).bounds();
 }
 
-// Values of ClearanceFinder::places_.
-constexpr std::uint32_t kNothing = std::numeric_limits<std::uint32_t>::max();
-constexpr std::uint32_t kTouched = kNothing - 1;
-constexpr std::uint32_t kUnresolved = kNothing - 2;
+/// If more faces come near the chord of a span, then each leg is searched by itself. The first term
+/// is about what a search costs, and the second one what it finds.
+constexpr std::size_t most_listed(std::size_t found) { return 64 + 2 * found; }
 
 }  // namespace
 
@@ -83,37 +82,38 @@ void ClearanceFinder::set_least(const Step& step, const CollisionRequest& reques
   }
 }
 
-std::optional<ClearanceFinder::Approach> ClearanceFinder::nearest(const Step& step,
-                                                                  double distance_bound) {
-  searches_each_face_ = false;
-  find_approaches(step, distance_bound);
-  return found_.empty() ? std::nullopt : std::optional<Approach>(found_.front());
+std::optional<Approach> ClearanceFinder::nearest(const Step& step, double distance_bound) {
+  nearest_.start(step.organ().face_count(), 1, distance_bound);
+  find_approaches(step);
+  const std::vector<Approach>& found = nearest_.found();
+  return found.empty() ? std::nullopt : std::optional<Approach>(found.front());
 }
 
 void ClearanceFinder::find_near(const Step& step, const CollisionRequest& request,
+                                CollisionResult& result) {
+  std::size_t parts = step.has_shaft() ? 1 : 0;
+  for (std::size_t link = 0; link < step.link_count(); ++link) {
+    parts += step.link(link).parts.size();
+  }
+  find_near(step, request, result,
+            WorkBudget::for_near(request.max_near, parts * step.leg_count()));
+}
+
+/// Searches one face more than asked for, which tells near_more.
+void ClearanceFinder::find_near(const Step& step, const CollisionRequest& request,
                                 CollisionResult& result, const WorkBudget& budget) {
   budget_ = budget;
-  searches_each_face_ = true;
-  places_.assign(step.organ().face_count(), kNothing);
-  for (const FaceContact& contact : result.contacts) places_[contact.face] = kTouched;
-  find_approaches(step, request.margin);
-
-  const auto is_unresolved = [&](const Approach& near) {
-    return places_[near.face] == kUnresolved;
-  };
-  found_.erase(std::remove_if(found_.begin(), found_.end(), is_unresolved), found_.end());
-  const std::size_t count = std::min(request.max_near, found_.size());
-  const auto end = found_.begin() + static_cast<std::ptrdiff_t>(count);
-  std::partial_sort(found_.begin(), end, found_.end(), [](const auto& a, const auto& b) {
-    return std::tie(a.distance, a.face) < std::tie(b.distance, b.face);
-  });
-  for (auto near = found_.begin(); near != end; ++near) {
-    result.near.push_back(contact_of(step, *near));
-    result.near.back().depth = -near->distance;
+  unmeasured_ = 0;
+  nearest_.start(step.organ().face_count(), request.max_near + 1, request.margin);
+  for (const FaceContact& contact : result.contacts) nearest_.exclude(contact.face);
+  find_approaches(step);
+  for (const Approach& near : nearest_.sorted()) {
+    result.near_more = result.near.size() == request.max_near;
+    if (result.near_more) break;
+    result.near.push_back(contact_of(step, near));
+    result.near.back().depth = -near.distance;
   }
-  result.near_more = found_.size() > count;
-  result.near_unresolved =
-      static_cast<std::size_t>(std::count(places_.begin(), places_.end(), kUnresolved));
+  result.near_unresolved = std::min(unmeasured_, step.organ().face_count());
 }
 
 /// ToolClearance::closing_speed. `end`: the nearest approach at the end of the step. `normal`: from
@@ -149,94 +149,152 @@ FaceContact ClearanceFinder::contact_of(const Step& step, const Approach& near) 
   return contact;
 }
 
-/// Replaces `found_` by the approaches within the bound [m]: the nearest one alone, or that of each
-/// face that places_ leaves to be searched.
-void ClearanceFinder::find_approaches(const Step& step, double distance_bound) {
-  found_.clear();
-  bound_ = distance_bound;
+/// Measures faces against a part of the tool on one leg, or along the chord of a span. The step,
+/// the part and `on_leg` must outlive this.
+class ClearanceFinder::LegSearch {
+ public:
+  LegSearch(ClearanceFinder& finder, const Step& step, const LegSpan& span, const ToolPart& part,
+            const PartLeg& on_leg)
+      : finder_(finder),
+        organ_(step.organ_motion(span)),
+        box_(box_around(step, span, part)),
+        part_(part),
+        on_leg_(on_leg),
+        leg_(span.begin),
+        radius_(part.surface_radius(step)),
+        deviation_(span.deviation),
+        rounding_(kRounding * (organ_.extent(Vector3d::Zero()) + box_.center.cwiseAbs().sum() +
+                               box_.half_size.sum())) {
+    set_plane();
+  }
+
+  /// Calls use(face, closest approach) for each face that comes within the bound, the nearest ones
+  /// first, until `use` returns false or the budget is used up. Returns how many faces are left.
+  template <typename Use>
+  std::size_t visit(Use use) {
+    const auto bound = [this] { return this->bound(); };
+    return finder_.search_.visit(organ_, box_, bound, [&](std::uint32_t face) {
+      if (finder_.budget_.is_used_up()) return false;
+      const auto closest = measure(face);
+      return !closest || use(face, *closest);
+    });
+  }
+
+  /// The closest approach to a face, unless it is beyond the bound. If the budget is used up, it
+  /// may be missing or too far away.
+  std::optional<ClosestApproach> measure(std::uint32_t face) {
+    if (finder_.nearest_.is_excluded(face)) return std::nullopt;
+    const FaceMotion motion = organ_.face(organ_.after().faces()[face]);
+    if (plane_ && plane_->keeps_beyond(motion, bound() + rounding_)) return std::nullopt;
+    WorkBudget& budget = finder_.budget_;
+    const std::uint64_t cuts = budget.cuts();
+    std::optional<ClosestApproach> closest;
+    if (budget.is_used_up()) {
+      budget.add_cut();
+    } else if (part_.is_surface()) {
+      closest = closest_approach(surface(), *on_leg_.core.link(), motion, bound(), budget);
+    } else {
+      closest = closest_approach(on_leg_.core, motion, bound(), budget);
+    }
+    finder_.unmeasured_ += budget.cuts() - cuts;
+    if (closest) turn_plane(closest->closest);
+    return closest;
+  }
+
+  void add(std::uint32_t face, const ClosestApproach& closest) {
+    finder_.nearest_.add({closest.closest.distance - radius_, face, part_, leg_, closest});
+  }
+
+ private:
+  /// [1] The allowance for rounding of FixedPlane, as a share of the largest coordinates.
+  static constexpr double kRounding = 1e-14;
+
+  const ToolSurface& surface() const { return *part_.shape->surface; }
+  /// [m] The distance of a core and a face up to which the face is of interest.
+  double bound() const { return finder_.nearest_.bound() + radius_ + deviation_; }
+
+  void turn_plane(const ClosestPoints& closest) {
+    Vector3d& nearest = finder_.separation_;
+    const bool is_nearer = nearest.isZero(0.0) || closest.distance < nearest.norm();
+    if (closest.distance <= tolerance::kPierced || !is_nearer) return;
+    nearest = closest.separation;
+    set_plane();
+  }
+
+  void set_plane() {
+    const Vector3d normal = finder_.separation_.stableNormalized();
+    if (normal.isZero(0.0)) return;
+    plane_ = part_.is_surface() ? FixedPlane(normal, surface(), *on_leg_.core.link())
+                                : FixedPlane(normal, on_leg_.core);
+  }
+
+  ClearanceFinder& finder_;
+  const OrganMotion organ_;
+  const OrientedBox box_;
+  const ToolPart& part_;
+  const PartLeg& on_leg_;
+  const std::size_t leg_;
+  const double radius_, deviation_;  ///< [m] around the core, and of the span
+  const double rounding_;            ///< [m]
+  std::optional<FixedPlane> plane_;
+};
+
+/// Adds the approaches of each part of the tool to `nearest_`.
+void ClearanceFinder::find_approaches(const Step& step) {
   for_each_part(step, [&](const ToolPart& part, const LegSpan& span) {
-    budget_.add_pairs(span.leg_count() * step.organ().face_count() * part.convex_count());
-    find_near_chord(step, span, part);
-    for (std::size_t leg = span.begin; leg < span.end && !faces_.empty(); ++leg) {
-      find_on_leg(step, leg, part);
+    separation_.setZero();
+    search_leg(step, span.begin, part);
+    if (span.leg_count() == 1) return;
+    const bool are_listed = list_faces_near_chord(step, span, part);
+    for (std::size_t leg = span.begin + 1; leg < span.end; ++leg) {
+      if (are_listed) {
+        measure_listed_faces(step, leg, part);
+      } else {
+        search_leg(step, leg, part);
+      }
     }
   });
 }
 
-/// Measures the faces along the chord of a span. If the span has a single leg, the chord is this
-/// leg, and the approaches are added. Otherwise the faces near the chord are kept in
-/// `faces_`, to be measured on each leg.
-void ClearanceFinder::find_near_chord(const Step& step, const LegSpan& span, const ToolPart& part) {
-  const OrganMotion organ = step.organ_motion(span);
-  const double radius = part.surface_radius(step);
-  const auto bound = [&] { return bound_ + radius + span.deviation; };
-  faces_.clear();
+void ClearanceFinder::search_leg(const Step& step, std::size_t leg, const ToolPart& part) {
+  const LegSpan span = step.span_of(leg);
+  with_part_leg(step, span, part, [&](const PartLeg& on_leg) {
+    LegSearch search(*this, step, span, part, on_leg);
+    const std::size_t left = search.visit([&](std::uint32_t face, const ClosestApproach& closest) {
+      search.add(face, closest);
+      return true;
+    });
+    if (left > 0) budget_.add_cut();
+    unmeasured_ += left;
+  });
+}
+
+/// Fills `listed_` with the faces that come near the chord of a span. Returns whether they are few;
+/// otherwise the list is not complete.
+bool ClearanceFinder::list_faces_near_chord(const Step& step, const LegSpan& span,
+                                            const ToolPart& part) {
+  const std::size_t most = most_listed(nearest_.found().size());
+  std::size_t left = 0;
+  listed_.clear();
   with_part_leg(step, span, part, [&](const PartLeg& on_chord) {
-    search_.visit(organ, box_around(step, span, part), bound, [&](std::uint32_t face) {
-      if (!is_searched(face)) return;
-      const auto closest = measure(part, on_chord, organ, face, bound());
-      if (!closest) return;
-      if (span.leg_count() > 1) return faces_.push_back(face);
-      add({closest->closest.distance - radius, face, part, span.begin, *closest});
+    LegSearch search(*this, step, span, part, on_chord);
+    left = search.visit([&](std::uint32_t face, const ClosestApproach& /*closest*/) {
+      listed_.push_back(face);
+      return listed_.size() <= most;
     });
   });
+  return left == 0;
 }
 
-/// Measures on one leg the faces that came near the chord.
-void ClearanceFinder::find_on_leg(const Step& step, std::size_t leg, const ToolPart& part) {
-  const OrganMotion organ = step.organ_motion(step.span_of(leg));
-  const double radius = part.surface_radius(step);
-  with_part_leg(step, step.span_of(leg), part, [&](const PartLeg& on_leg) {
-    for (const std::uint32_t face : faces_) {
-      if (!is_searched(face)) continue;
-      const auto closest = measure(part, on_leg, organ, face, bound_ + radius);
-      if (closest) add({closest->closest.distance - radius, face, part, leg, *closest});
+void ClearanceFinder::measure_listed_faces(const Step& step, std::size_t leg,
+                                           const ToolPart& part) {
+  const LegSpan span = step.span_of(leg);
+  with_part_leg(step, span, part, [&](const PartLeg& on_leg) {
+    LegSearch search(*this, step, span, part, on_leg);
+    for (const std::uint32_t face : listed_) {
+      if (const auto closest = search.measure(face)) search.add(face, *closest);
     }
   });
-}
-
-/// The closest approach of a part and a face on a leg. If the budget is used up, it may be missing
-/// or too far away. The face is then marked as unresolved.
-std::optional<ClosestApproach> ClearanceFinder::measure(const ToolPart& part, const PartLeg& leg,
-                                                        const OrganMotion& organ,
-                                                        std::uint32_t face, double distance_bound) {
-  const FaceMotion motion = organ.face(organ.after().faces()[face]);
-  const std::uint64_t cuts = budget_.cuts();
-  std::optional<ClosestApproach> closest;
-  if (budget_.is_used_up()) {
-    budget_.add_cut();
-  } else if (part.is_surface()) {
-    closest =
-        closest_approach(*part.shape->surface, *leg.core.link(), motion, distance_bound, budget_);
-  } else {
-    closest = closest_approach(leg.core, motion, distance_bound, budget_);
-  }
-  if (budget_.cuts() != cuts && searches_each_face_) places_[face] = kUnresolved;
-  return closest;
-}
-
-bool ClearanceFinder::is_searched(std::uint32_t face) const {
-  return !searches_each_face_ || (places_[face] != kTouched && places_[face] != kUnresolved);
-}
-
-/// Keeps the nearest approach: of all faces, or of each face. Of faces at the same distance, the
-/// one with the smallest number counts as the nearest.
-void ClearanceFinder::add(const Approach& approach) {
-  if (!searches_each_face_) {
-    const bool is_tie = !found_.empty() && approach.distance == found_.front().distance;
-    if (is_tie && approach.face > found_.front().face) return;
-    found_.assign(1, approach);
-    bound_ = approach.distance;
-    return;
-  }
-  std::uint32_t& place = places_[approach.face];
-  if (place == kUnresolved) return;
-  if (place == kNothing) {
-    place = static_cast<std::uint32_t>(found_.size());
-    found_.push_back(approach);
-  } else if (approach.distance < found_[place].distance) {
-    found_[place] = approach;
-  }
 }
 
 }  // namespace organ_collision

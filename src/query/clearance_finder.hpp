@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "geometry/distance/closest_approach.hpp"
 #include "geometry/distance/face_search.hpp"
+#include "nearest_faces.hpp"
 #include "organ_collision/query/collision_query.hpp"
 #include "step.hpp"
 
@@ -21,22 +21,16 @@ class ClearanceFinder {
   /// step, as the request asks. `contacts` are the contacts of the step.
   ToolClearance find(const Step& step, const CollisionRequest& request,
                      const std::vector<FaceContact>& contacts,
-                     const WorkBudget& budget = WorkBudget::for_approaches());
+                     const WorkBudget& budget = WorkBudget::for_clearance());
 
   /// Sets the fields of `result` about near faces: faces within the margin that the tool does not
   /// touch during the step. `result` must hold the contacts of the step already.
+  void find_near(const Step& step, const CollisionRequest& request, CollisionResult& result);
   void find_near(const Step& step, const CollisionRequest& request, CollisionResult& result,
-                 const WorkBudget& budget = WorkBudget::for_approaches());
+                 const WorkBudget& budget);
 
  private:
-  /// The closest approach of a part of the tool and a face on one leg of a step.
-  struct Approach {
-    double distance;  ///< [m] distance between the surfaces; see ToolClearance
-    std::uint32_t face;
-    ToolPart part;
-    std::size_t leg;
-    ClosestApproach closest;
-  };
+  class LegSearch;
 
   std::optional<Approach> nearest(const Step& step, double distance_bound);
   void set_least(const Step& step, const CollisionRequest& request,
@@ -45,25 +39,19 @@ class ClearanceFinder {
                               const Approach& end, const Eigen::Vector3d& normal);
   static FaceContact contact_of(const Step& step, const Approach& near);
 
-  void find_approaches(const Step& step, double distance_bound);
-  void find_near_chord(const Step& step, const LegSpan& span, const ToolPart& part);
-  void find_on_leg(const Step& step, std::size_t leg, const ToolPart& part);
-  std::optional<ClosestApproach> measure(const ToolPart& part, const PartLeg& leg,
-                                         const OrganMotion& organ, std::uint32_t face,
-                                         double distance_bound);
-  bool is_searched(std::uint32_t face) const;
-  void add(const Approach& approach);
+  void find_approaches(const Step& step);
+  void search_leg(const Step& step, std::size_t leg, const ToolPart& part);
+  bool list_faces_near_chord(const Step& step, const LegSpan& span, const ToolPart& part);
+  void measure_listed_faces(const Step& step, std::size_t leg, const ToolPart& part);
 
   FaceSearch search_;
-  WorkBudget budget_;                 ///< the work of the present search
-  double bound_ = 0.0;                ///< [m] the greatest distance that is still of interest
-  std::vector<std::uint32_t> faces_;  ///< faces within the bound of the present chord
-  std::vector<Approach> found_;
-  /// Whether an approach of each face is searched, or only the nearest approach of all faces.
-  bool searches_each_face_ = false;
-  /// If each face is searched: for each face its place in `found_`, or that it has none, that the
-  /// tool touches it, or that it was not measured to the end.
-  std::vector<std::uint32_t> places_;
+  WorkBudget budget_;  ///< the work of the present search
+  NearestFaces nearest_;
+  std::size_t unmeasured_ = 0;  ///< see CollisionResult::near_unresolved
+  std::vector<std::uint32_t> listed_;  ///< faces near the chord of the present span
+  /// The separation [m] of the present part and the nearest face so far, on any leg of the present
+  /// span. The plane at right angles to it excludes most of the other faces.
+  Eigen::Vector3d separation_;
 };
 
 }  // namespace organ_collision

@@ -108,10 +108,10 @@ struct CollisionResult {
   /// link that comes nearest to it. The fields are those of a contact, at the time of the closest
   /// approach instead of the first touch. `depth` is minus the distance at that time.
   std::vector<FaceContact> near;
-  /// Whether further faces are left out of `near`, because max_near faces are nearer.
+  /// Whether further faces within the margin are left out of `near`, because it has max_near faces.
   bool near_more = false;
-  /// The number of faces that may be within the margin but were not measured to the end, because
-  /// the query reached its work limit. `near` does not contain them.
+  /// At most so many faces were not measured to the end, because the query reached its work limit.
+  /// If it is above 0, nearer faces may be missing in `near`, and its distances are upper bounds.
   std::size_t near_unresolved = 0;
   /// How many faces had to be looked at one by one.
   PickCounts picked;

@@ -90,6 +90,23 @@ std::optional<FaceSearch::Ranked> FaceSearch::pop_nearest(Ranking& ranking, floa
   return nearest;
 }
 
+std::size_t FaceSearch::faces_left(float squared_bound) const {
+  std::size_t count = 0;
+  const auto add = [&](const Ranked& ranked, std::size_t begin, std::size_t end) {
+    if (ranked.squared_distance > squared_bound) return;
+    end = std::min(end, clusters().block_count());
+    const auto faces = clusters().faces(end - 1).end() - clusters().faces(begin).begin();
+    count += static_cast<std::size_t>(faces);
+  };
+  for (const Ranked& block : blocks_) add(block, block.index, block.index + 1);
+  for (const Ranked& group : groups_) {
+    std::size_t blocks = FaceClusters::kGroup;  // of a section
+    for (std::uint32_t level = 0; level < group.level; ++level) blocks *= FaceClusters::kGroup;
+    add(group, group.index * blocks, (group.index + 1) * blocks);
+  }
+  return count;
+}
+
 /// A box that contains the faces of a block's cluster (see FaceClusters) during the whole motion:
 /// it joins the boxes of all blocks that hold a vertex of these faces. Empty if the cluster has no
 /// faces.

@@ -22,9 +22,12 @@ namespace organ_collision {
 class FaceSearch {
  public:
   /// Calls measure(number) for each face that comes within bound() [m] of `box` while the organ
-  /// moves, and for some other faces. `measure` may lower the value of bound() during the search.
+  /// moves, and for some other faces. `measure` may lower the value of bound() during the search,
+  /// and ends the search if it returns false. Returns the number of faces that are then left: an
+  /// upper bound of the number of faces within bound() that were not measured, with the last one.
   template <typename Bound, typename Measure>
-  void visit(const OrganMotion& organ, const OrientedBox& box, Bound bound, Measure measure) {
+  std::size_t visit(const OrganMotion& organ, const OrientedBox& box, Bound bound,
+                    Measure measure) {
     start(organ, box);
     rank_top(squared(bound()));
     while (const auto group = pop_nearest(groups_, squared(bound()))) {
@@ -35,11 +38,15 @@ class FaceSearch {
       rank_blocks(group->index, squared(bound()));
       while (const auto block = pop_nearest(blocks_, squared(bound()))) {
         place_vertices(block->index);
-        for (const FaceClusters::Face& face : clusters().faces(block->index)) {
-          if (squared_distance(face.corners) <= squared(bound())) measure(face.number);
+        const auto faces = clusters().faces(block->index);
+        for (const FaceClusters::Face& face : faces) {
+          if (!(squared_distance(face.corners) <= squared(bound()))) continue;
+          if (measure(face.number)) continue;
+          return static_cast<std::size_t>(faces.end() - &face) + faces_left(squared(bound()));
         }
       }
     }
+    return 0;
   }
 
  private:
@@ -75,6 +82,8 @@ class FaceSearch {
   static void push(const Ranked& ranked, float squared_bound, Ranking& ranking);
   /// Takes out the nearest group or block, unless it is beyond the bound.
   static std::optional<Ranked> pop_nearest(Ranking& ranking, float squared_bound);
+  /// The number of faces of the ranked groups and blocks that are not beyond the bound.
+  std::size_t faces_left(float squared_bound) const;
 
   /// [m^2] The square of a bound, with the allowance for rounding.
   float squared(double bound) const {

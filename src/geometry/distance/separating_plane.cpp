@@ -53,11 +53,24 @@ BernsteinQuadratic required_gap(const Instant& from, const Instant& to, const Co
 
 }  // namespace
 
-bool stays_beyond(const Eigen::Vector3d& normal, const CoreMotion& core, const FaceMotion& face,
-                  double distance) {
-  const double reach = distance + core.chord_deviation(1.0, normal);
-  return project_onto(normal, face.start).low - core.start().support_value(normal) > reach &&
-         project_onto(normal, face.end).low - core.end().support_value(normal) > reach;
+FixedPlane::FixedPlane(const Vector3d& normal, const CoreMotion& core) : normal_(normal) {
+  const double deviation = core.chord_deviation(1.0, normal);
+  start_ = core.start().support_value(normal) + deviation;
+  end_ = core.end().support_value(normal) + deviation;
+}
+
+FixedPlane::FixedPlane(const Vector3d& normal, const ToolSurface& surface,
+                       const RigidMotion& motion)
+    : normal_(normal) {
+  const OrientedBox& box = surface.nodes().front().box;
+  const double arm = box.center.norm() + box.half_size.norm();
+  const double deviation = arm * motion.angle() * motion.angle() / 8.0;
+  const auto support_value = [&](const Eigen::Isometry3d& pose) {
+    return surface.project_onto(pose.linear().transpose() * normal).high +
+           normal.dot(pose.translation());
+  };
+  start_ = support_value(motion.start()) + deviation;
+  end_ = motion.rests() ? start_ : support_value(motion.end()) + deviation;
 }
 
 Instant::Instant(double time, const CoreMotion& core_motion, const FaceMotion& face_motion,

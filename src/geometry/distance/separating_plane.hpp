@@ -9,6 +9,7 @@
 #include "geometry/organ/organ_motion.hpp"
 #include "geometry/tool/leg_motion.hpp"
 #include "organ_collision/geometry/projection_interval.hpp"
+#include "organ_collision/geometry/tool/tool_surface.hpp"
 #include "organ_collision/geometry/triangle.hpp"
 
 namespace organ_collision {
@@ -72,11 +73,32 @@ struct LegFace {
   Eigen::Vector3d normal;  ///< unit normal at the start; zero if the face is degenerate
 };
 
-/// Whether a plane with the fixed normal `normal` proves that the core stays farther than
-/// `distance` [m] from the face during the whole leg. `normal` is unit and points from the core to
-/// the face. If the result is false, the core may stay farther away all the same.
-bool stays_beyond(const Eigen::Vector3d& normal, const CoreMotion& core, const FaceMotion& face,
-                  double distance);
+/// Planes with a fixed normal that touch a part of a tool at the start and at the end of a leg.
+class FixedPlane {
+ public:
+  /// `normal` is unit and points away from the part.
+  FixedPlane(const Eigen::Vector3d& normal, const CoreMotion& core);
+  FixedPlane(const Eigen::Vector3d& normal, const ToolSurface& surface, const RigidMotion& motion);
+
+  /// Whether the planes prove that the part stays farther than `distance` [m] from the face during
+  /// the whole leg. If the result is false, the part may stay farther away all the same.
+  bool keeps_beyond(const FaceMotion& face, double distance) const {
+    return project_onto(normal_, face.start).low > distance + start_ &&
+           project_onto(normal_, face.end).low > distance + end_;
+  }
+
+ private:
+  Eigen::Vector3d normal_;
+  /// [m] The part's support values along the normal, grown by the chord deviation.
+  double start_, end_;
+};
+
+/// Whether FixedPlane proves that the core stays farther than `distance` [m] from the face during
+/// the whole leg. `normal` is unit and points from the core to the face.
+inline bool stays_beyond(const Eigen::Vector3d& normal, const CoreMotion& core,
+                         const FaceMotion& face, double distance) {
+  return FixedPlane(normal, core).keeps_beyond(face, distance);
+}
 
 /// A core and a face at one time of the leg, with their nearest points and the direction of the
 /// plane that separates them.

@@ -20,15 +20,24 @@ class WorkBudget {
   /// A query with more pairs gets the budget for kMostPairs: two to three seconds.
   static constexpr std::uint64_t kMostPairs = 10'000'000;
 
-  /// Like kStepsForEachPair, but for searches for the closest approach. It is larger because each
-  /// of these searches computes several distances. The largest budget of a query is the same for
-  /// both: kStepsForEachPair * kMostPairs.
-  static constexpr std::uint64_t kApproachStepsForEachPair = 20;
+  /// The budget of a search for the clearance: a quarter of a second.
+  static constexpr std::uint64_t kClearanceSteps = 2'000'000;
+  /// The budget of a search for near faces: this many steps, and more for each face that is asked
+  /// for and for each leg of each part of the tool. It does not grow with the organ, so that the
+  /// search takes a few milliseconds at most even if all faces are equally far.
+  static constexpr std::uint64_t kNearSteps = 50'000;
+  static constexpr std::uint64_t kStepsForEachNearFace = 500;
+  static constexpr std::uint64_t kStepsForEachLeg = 200;
 
-  explicit WorkBudget(std::uint64_t steps_for_each_pair = kStepsForEachPair)
-      : steps_for_each_pair_(steps_for_each_pair) {}
-  /// The budget for searches for the closest approach.
-  static WorkBudget for_approaches() { return WorkBudget(kApproachStepsForEachPair); }
+  /// The budget for contacts, which grows with the pairs.
+  WorkBudget()
+      : least_steps_(kStepsForEachPair * kLeastPairs),
+        most_steps_(kStepsForEachPair * kMostPairs) {}
+  static WorkBudget for_clearance() { return WorkBudget(kClearanceSteps); }
+  /// `legs`: the number of legs, those of each part of the tool counted by themselves.
+  static WorkBudget for_near(std::uint64_t faces, std::uint64_t legs) {
+    return WorkBudget(kNearSteps + kStepsForEachNearFace * faces + kStepsForEachLeg * legs);
+  }
   /// A budget that is never used up.
   static WorkBudget unlimited() {
     WorkBudget budget;
@@ -41,10 +50,8 @@ class WorkBudget {
   /// The number of steps that were spent so far.
   std::uint64_t spent() const { return spent_; }
   bool is_used_up() const {
-    constexpr std::uint64_t kMostSteps = kStepsForEachPair * kMostPairs;
     return is_limited_ &&
-           spent_ >= std::min(kMostSteps,
-                              steps_for_each_pair_ * std::clamp(pairs_, kLeastPairs, kMostPairs));
+           spent_ >= std::clamp(kStepsForEachPair * pairs_, least_steps_, most_steps_);
   }
 
   /// Notes that a search ended early because the budget was used up.
@@ -52,7 +59,9 @@ class WorkBudget {
   std::uint64_t cuts() const { return cuts_; }
 
  private:
-  std::uint64_t steps_for_each_pair_;
+  explicit WorkBudget(std::uint64_t steps) : least_steps_(steps), most_steps_(steps) {}
+
+  std::uint64_t least_steps_, most_steps_;
   std::uint64_t pairs_ = 0, spent_ = 0, cuts_ = 0;
   bool is_limited_ = true;
 };

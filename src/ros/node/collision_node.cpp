@@ -1,7 +1,9 @@
 #include "collision_node.hpp"
 
+#include <algorithm>
 #include <boost/make_shared.hpp>
 #include <chrono>
+#include <cmath>
 #include <set>
 
 #include "organ_collision/ros/names.hpp"
@@ -56,6 +58,9 @@ NodeCore<NodeParameters>::Callbacks CollisionNode::callbacks() {
                     [this](SteadyTime now) { pipeline_.apply_organ_messages(now); }};
   callbacks.work = [this] {
     pipeline_.steps.evaluate(core_.loop().heard_until());
+    if (const auto report = pipeline_.steps.load().take_report()) {
+      counters_.late.add("falls behind", *report, std::chrono::steady_clock::now());
+    }
     markers_.update(pipeline_.inbox.organs, pipeline_.steps.history());
   };
   callbacks.next_deadline = [this] { return pipeline_.steps.next_deadline(); };
@@ -169,7 +174,12 @@ void CollisionNode::start_ticks() {
   const double rate = core_.parameters().rate_hz;
   if (!(rate > 0.0)) return;
   tick_ = core_.private_node().createTimer(
-      ros::Duration(1.0 / rate), [this](const ros::TimerEvent&) { pipeline_.steps.add_tick(); });
+      ros::Duration(1.0 / rate), [this, rate](const ros::TimerEvent& event) {
+        const double since = (event.current_expected - event.last_expected).toSec();
+        const bool is_first = event.last_expected.isZero();
+        const auto ticks = is_first ? 1.0 : std::clamp(std::round(since * rate), 1.0, 1e9);
+        pipeline_.steps.add_tick(static_cast<std::uint64_t>(ticks) - 1);
+      });
 }
 
 }  // namespace organ_collision

@@ -130,6 +130,7 @@ void show_queries(const std::vector<std::string>& misspelt, const CollisionPipel
   status.add("motion samples cut, farthest from the swept way [m]", steps.deviation_cut);
   status.add("transforms after their step", pipeline.inbox.transforms.late());
   status.add("poses merged into later ones", steps.poses_merged);
+  status.add("ticks merged into later ones", steps.ticks_merged);
   status.add("shapes due", steps.due);
   status.add("shapes answered", steps.answered);
   status.add("shapes superseded by newer ones", steps.superseded);
@@ -145,6 +146,7 @@ void show_queries(const std::vector<std::string>& misspelt, const CollisionPipel
   }
   show_failures("unanswered", counters.failed, status);
   show_failures("answered in part", counters.incomplete, status);
+  show_failures("answered late", counters.late, status);
   show_failures("refused", counters.refused, status);
 }
 

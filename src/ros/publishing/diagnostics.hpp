@@ -72,6 +72,7 @@ struct NodeCounters {
   FailureLog rejected;                    ///< messages that were refused
   FailureLog failed;                      ///< steps without an answer
   FailureLog incomplete;                  ///< answered steps whose path is not wholly known
+  FailureLog late;                        ///< periods in which the node fell behind (LoadWatch)
   FailureLog refused;                     ///< service calls, and motions of batches, that failed
 };
 

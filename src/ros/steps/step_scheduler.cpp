@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <boost/make_shared.hpp>
 
+#include "geometry/concatenate.hpp"
 #include "ros/messages/text.hpp"
 
 namespace organ_collision {
@@ -63,7 +64,15 @@ void StepScheduler::add_pose(std::size_t tool) {
 }
 
 void StepScheduler::evaluate(SteadyTime now) {
+  const LoadWatch::Time begin = LoadWatch::Time::clock::now();
+  is_behind_ = load_.is_behind(begin);
   now_ = now;
+  evaluate_all();
+  load_.add_round(begin, LoadWatch::Time::clock::now(),
+                  counts_.poses_merged + counts_.ticks_merged + counts_.superseded);
+}
+
+void StepScheduler::evaluate_all() {
   due_.clear();  // If an exception ended the last round, its steps are still there.
   do {
     for (auto& [key, pair] : history_) {
@@ -81,9 +90,9 @@ void StepScheduler::evaluate(SteadyTime now) {
     }
   }
   evaluate_due();
-  // In a replay, `now` may go back.
-  if (now < next_lookout_ && next_lookout_ - now <= kLookout) return;
-  next_lookout_ = now + kLookout;
+  // In a replay, `now_` may go back.
+  if (now_ < next_lookout_ && next_lookout_ - now_ <= kLookout) return;
+  next_lookout_ = now_ + kLookout;
   plan_long_steps();
   evaluate_due();
 }
@@ -287,6 +296,12 @@ void StepScheduler::answer(ToolStep& step, ContactQuery& query) const {
   if (step.moves) {
     step.sampled = poses_.path(tool, step.organ->frame(), {last->pose, last->stamp}, *step.end);
     request.path = std::move(step.sampled.path);
+    if (is_behind_ && step.sampled.samples_cut > 0 && step.sampled.unknown.empty()) {
+      step.sampled.unknown = concatenate(
+          step.sampled.samples_cut,
+          " samples of the tool's motion were left out (motion_samples_max), because the node "
+          "falls behind");
+    }
   } else {
     request.path = resting_path(step.end->value);
   }
@@ -335,6 +350,7 @@ void StepScheduler::deliver(ToolStep& step) {
   counts_.picked.drawn += step.picked.drawn;
   counts_.picked.undrawn += step.picked.undrawn;
   if (step.answer->status == ContactArray::OK) {
+    load_.add(step, tools_[step.tool]);
     poses_.set_answered(tools_[step.tool], step.organ->frame(), step.end->stamp);
     pair.last =
         LastStep{std::move(step.end->value), step.end->stamp, pair.current.mesh, now_, step.answer};

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "load_watch.hpp"
 #include "query/worker_threads.hpp"
 #include "ros/organs/organ_intake.hpp"
 #include "ros/organs/organ_registry.hpp"
@@ -20,6 +21,7 @@ struct StepCounts {
   std::uint64_t forgotten = 0;
   std::uint64_t waiting = 0;       ///< shapes that wait for transforms now
   std::uint64_t poses_merged = 0;  ///< poses that share a step with an earlier pose
+  std::uint64_t ticks_merged = 0;  ///< ticks that share a step with an earlier tick
   std::uint64_t samples_cut = 0;   ///< samples of motion, dropped because of motion_samples_max
   /// [m] The largest distance of a dropped sample from the path that was swept instead.
   double deviation_cut = 0.0;
@@ -69,8 +71,12 @@ class StepScheduler {
   void add(const OrganUpdate& update, SteadyTime now);
   /// Notes that a tool's tip has a new pose: the tool becomes due.
   void add_pose(std::size_t tool);
-  /// Makes every tool due.
-  void add_tick() { tick_is_due_ = true; }
+  /// Makes every tool due. `merged`: the number of ticks before this one that were due since the
+  /// last call, and came too late.
+  void add_tick(std::uint64_t merged = 0) {
+    tick_is_due_ = true;
+    counts_.ticks_merged += merged;
+  }
 
   /// From now on, no shape is replaced by a newer one before it was evaluated.
   void keep_all_shapes() { keeps_all_shapes_ = true; }
@@ -97,6 +103,7 @@ class StepScheduler {
 
   /// For /diagnostics.
   StepCounts counts() const;
+  LoadWatch& load() { return load_; }
 
  private:
   void plan_front(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair);
@@ -107,6 +114,7 @@ class StepScheduler {
   void plan_failure(ToolStep step, ros::Time stamp, std::uint8_t status,
                     const std::string& message);
 
+  void evaluate_all();
   bool evaluate_due();
   void answer(ToolStep& step, ContactQuery& query) const;
   void set_velocities(ToolStep& step) const;
@@ -128,7 +136,9 @@ class StepScheduler {
   SteadyTime now_;           ///< the time of the last call of evaluate()
   SteadyTime next_lookout_;  ///< when to look again for steps that become too long
   bool keeps_all_shapes_ = false;
-  StepCounts counts_;  ///< except `forgotten` and `waiting`, which counts() computes
+  LoadWatch load_;
+  bool is_behind_ = false;  ///< whether the node fell behind before the present round
+  StepCounts counts_;       ///< except `forgotten` and `waiting`, which counts() computes
 };
 
 }  // namespace organ_collision

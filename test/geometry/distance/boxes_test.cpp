@@ -158,14 +158,31 @@ TEST(FaceSearch, VisitsEveryFaceWithinTheBoundOnceAndFewOthers) {
     std::multiset<std::uint32_t> visited;
     search.visit(
         scene.organ(), scene.box, [&] { return bound; },
-        [&](std::uint32_t face) { visited.insert(face); });
+        [&](std::uint32_t face) {
+          visited.insert(face);
+          return true;
+        });
     double found = std::numeric_limits<double>::infinity(), least = found;
     search.visit(
         scene.organ(), scene.box, [&] { return found; },
         [&](std::uint32_t face) {
           found = std::min(found, scene.distance(face));
           ++nearer;
+          return true;
         });
+    std::multiset<std::uint32_t> first;
+    const auto most = static_cast<std::size_t>(random.integer(1, 200));
+    const std::size_t left = search.visit(
+        scene.organ(), scene.box, [&] { return bound; },
+        [&](std::uint32_t face) {
+          if (first.size() == most) return false;
+          first.insert(face);
+          return true;
+        });
+    EXPECT_EQ(first.size(), std::min(most, visited.size()));
+    EXPECT_GE(first.size() + left, visited.size());
+    EXPECT_LE(first.size() + left, scene.after->face_count());
+    EXPECT_TRUE(visited.size() > most || left == 0U);
     for (std::uint32_t face = 0; face < scene.after->face_count(); ++face) {
       const double distance = scene.distance(face);
       least = std::min(least, distance);

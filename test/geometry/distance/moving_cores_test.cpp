@@ -41,9 +41,12 @@ TEST(WorkBudget, GrowsWithThePairsBetweenTheLeastAndTheMost) {
   expect_steps(WorkBudget(), kLeast, kSteps * kLeast);
   expect_steps(WorkBudget(), kLeast + 1, kSteps * (kLeast + 1));
   expect_steps(WorkBudget(), 1000 * kMost, kSteps * kMost);
-  constexpr std::uint64_t kForApproaches = WorkBudget::kApproachStepsForEachPair;
-  expect_steps(WorkBudget::for_approaches(), 0, kForApproaches * kLeast);
-  expect_steps(WorkBudget::for_approaches(), 1000 * kMost, kSteps * kMost);
+  for (const std::uint64_t pairs : {std::uint64_t{0}, 1000 * kMost}) {
+    expect_steps(WorkBudget::for_clearance(), pairs, WorkBudget::kClearanceSteps);
+    expect_steps(WorkBudget::for_near(7, 3), pairs,
+                 WorkBudget::kNearSteps + 7 * WorkBudget::kStepsForEachNearFace +
+                     3 * WorkBudget::kStepsForEachLeg);
+  }
   WorkBudget unlimited = WorkBudget::unlimited();
   unlimited.spend(std::uint64_t{1} << 60U);
   EXPECT_FALSE(unlimited.is_used_up());
