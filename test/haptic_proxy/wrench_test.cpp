@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -52,9 +52,9 @@ Load load_of(const geometry_msgs::Wrench& wrench) {
 /// Checks the messages about one tool.
 class Judge {
  public:
-  explicit Judge(const Tool& tool)
-      : is_free_(tool.parameters.freedom == ProxyFreedom::kFree),
-        is_ball_(is_free_ && tool.links.empty()) {}
+  explicit Judge(const oracle::HandScript& hand)
+      : is_free_(hand.tool.freedom == ProxyFreedom::kFree),
+        is_ball_(is_free_ && hand.tool.links.empty() && hand.shaft_length == 0.0) {}
 
   /// `T_world_frame`: where the frame of the report is. `organs`: those of the report.
   void check(const ProxyReport& report, const std::vector<ProxyOrgan>& organs,
@@ -160,7 +160,7 @@ class Episode {
   void run(int ticks) {
     oracle::ScriptedHand hand(scene_.hand, random_);
     ToolProxy proxy(tool_, parameters_);
-    Judge judge(tool_);
+    Judge judge(scene_.hand);
     for (int tick = 0; tick < ticks && !testing::Test::HasFailure(); ++tick) {
       SCOPED_TRACE("tick " + std::to_string(tick));
       happen(proxy);
