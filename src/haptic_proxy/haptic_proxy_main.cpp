@@ -46,10 +46,12 @@ ProgramHelp haptic_proxy_help() {
        "near it, and why there is no answer"},
       {ros::names::append(pair, names::kWrench), message_type<geometry_msgs::WrenchStamped>(),
        "force of the organ on the hand [N], torque about the origin of the proxy's frame [N m]. In "
-       "the proxy's frame for all organs: their sum is the wrench of the state"},
+       "the proxy's frame for all organs: their sum is the wrench of the state, also while it "
+       "fades"},
       {ros::names::append(pair, names::kVertexForces), message_type<VertexForces>(),
-       "forces of the proxy on the tissue's vertices [N], in the organ's frame, limited and faded "
-       "as the wrench. Of a free tool, they add up to minus the force of the wrench"},
+       "forces of the proxy on the tissue's vertices [N], in the organ's frame. Of a free tool, "
+       "they add up to minus the wrench, unless the state is fading: tissue that the tool has left "
+       "is free at once"},
       {names::kMarkers, message_type<visualization_msgs::MarkerArray>(),
        "hands, proxies, forces, states and organs, for RViz"},
       {"/tf", message_type<tf2_msgs::TFMessage>(), "where the proxies are: the frames TOOL_proxy"},

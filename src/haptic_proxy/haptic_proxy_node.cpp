@@ -123,6 +123,9 @@ void HapticProxyNode::run(const std::function<bool()>& stop) {
 
 /// Lets all forces fade, and publishes why. Returns when the last messages have left.
 void HapticProxyNode::let_go(const std::string& why) {
+  for (const Hand& hand : hands_) {
+    if (hand.proxy) hand.proxy->let_go();
+  }
   bool is_fading = true;
   while (is_fading && core_.private_node().ok()) {
     is_fading = false;
@@ -354,17 +357,17 @@ void HapticProxyNode::reset_proxies(const std::string& why) {
   }
 }
 
-/// The proxies move in another frame now. Their forces are rotated into it if TF connects it with
-/// the frame before, so that they do not jump.
+/// The proxies move in another frame now. Hands and forces are expressed in it if TF connects it
+/// with the frame before, so that the forces do not jump.
 void HapticProxyNode::change_frame(const std::string& before) {
   reset_proxies("the proxy's frame changed");
-  Eigen::Matrix3d R_new_old = Eigen::Matrix3d::Identity();
+  Eigen::Isometry3d T_new_old = Eigen::Isometry3d::Identity();
   if (!before.empty()) {
-    const auto T_new_old = look_up(inbox_.transforms, frame_.name(), before, ros::Time(0));
-    if (T_new_old.found) R_new_old = T_new_old.found->value.linear();
+    const auto found = look_up(inbox_.transforms, frame_.name(), before, ros::Time(0)).found;
+    if (found) T_new_old = found->value;
   }
   for (Hand& hand : hands_) {
-    if (hand.proxy) hand.proxy->change_frame(frame_.name(), R_new_old);
+    if (hand.proxy) hand.proxy->change_frame(frame_.name(), T_new_old);
   }
 }
 

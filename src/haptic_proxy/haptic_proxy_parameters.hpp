@@ -8,6 +8,7 @@
 #include "organ_collision/query/haptic_proxy.hpp"
 #include "organ_collision/ros/names.hpp"
 #include "ros/parameters/node_parameters.hpp"
+#include "wrench_limiter.hpp"
 
 /// The names of haptic_proxy in the ROS graph, besides those of the collision node and of all nodes
 /// with forces.
@@ -30,28 +31,33 @@ namespace organ_collision {
 /// The parameters of haptic_proxy, with the documented defaults. This node does not read
 /// `markers.markers_depth`.
 struct HapticProxyParameters : OrganNodeParameters {
-  std::string frame;            ///< the proxy's frame; empty: that of the first organ
-  double stiffness = 300.0;     ///< [N/m] of the spring between hand and proxy
-  double damping = 0.0;         ///< [N s/m] on the hand's velocity relative to the proxy
-  double max_force = 3.0;       ///< [N] larger forces are scaled down to it
-  double max_torque = 0.1;      ///< [N m] about a free tool's centre; larger ones shrink
-  double max_force_rate = 0.0;  ///< [N/s]; 0: see force_rate()
-  double clearance = ProxySettings().clearance;  ///< [m]
-  double jump = ProxySettings().jump;            ///< [m]
-  double puncture_force = 0.0;                   ///< [N] at this force, a needle pierces; 0: never
-  double friction = 0.0;                         ///< [N] along a needle that has pierced tissue
+  std::string frame;         ///< the proxy's frame; empty: that of the first organ
+  double stiffness = 300.0;  ///< [N/m] of the spring between hand and proxy
+  double damping = 0.0;      ///< [N s/m] on the hand's velocity relative to the proxy
+  double max_force = 3.0;    ///< [N] larger forces are scaled down to it
+  double max_torque = 0.1;   ///< [N m] about a free tool's centre; larger ones shrink
+  double max_force_rate = 0.0, max_torque_rate = 0.0;  ///< [N/s], [N m/s]; 0: see wrench_limits()
+  double clearance = ProxySettings().clearance;        ///< [m]
+  double jump = ProxySettings().jump;                  ///< [m]
+  double puncture_force = 0.0;  ///< [N] at this force, a needle pierces; 0: never
+  double friction = 0.0;        ///< [N] along a needle that has pierced tissue
   double pose_timeout_sec = 0.02;
   double frame_timeout_sec = 0.5;  ///< most age of an organ's frame, unless static; 0: any
   bool organ_interpolation = true;
   bool publish_tf = true;
 };
 
-/// [N/s] By how much the force may change in time. By default, it rises to max_force in 10 ms.
-inline double force_rate(const HapticProxyParameters& parameters) {
-  constexpr double kRise = 0.01;           // [s]
-  constexpr double kWithoutLimit = 300.0;  // [N/s]
-  if (parameters.max_force_rate > 0.0) return parameters.max_force_rate;
-  return std::isinf(parameters.max_force) ? kWithoutLimit : parameters.max_force / kRise;
+/// The limits of force and torque, and of their rates. By default, each rises to its limit in 10
+/// ms. Without a limit, it rises as it does with the default limit.
+inline WrenchLimits wrench_limits(const HapticProxyParameters& parameters) {
+  const HapticProxyParameters defaults;
+  const auto rate = [](double chosen, double limit, double default_limit) {
+    constexpr double kRise = 0.01;  // [s]
+    return chosen > 0.0 ? chosen : (std::isinf(limit) ? default_limit : limit) / kRise;
+  };
+  return {parameters.max_force, parameters.max_torque,
+          rate(parameters.max_force_rate, parameters.max_force, defaults.max_force),
+          rate(parameters.max_torque_rate, parameters.max_torque, defaults.max_torque)};
 }
 
 inline ParameterTable table_of(HapticProxyParameters& p) {
@@ -82,23 +88,27 @@ inline ParameterTable table_of(HapticProxyParameters& p) {
       .live();
   t.number(
        "damping", p.damping, {0.0, 1000.0},
-       "[N s/m] on the hand's velocity relative to the proxy's, after a low-pass of 2 ms, while "
-       "the proxy is held back. The force is never larger than the spring's")
+       "[N s/m] on the hand's velocity relative to the proxy's, along the force, after a low-pass "
+       "of 2 ms, while the proxy is held back. It never reverses or doubles the spring's force")
       .live();
   t.number(
        names::kMaxForce, p.max_force, kForces,
        "[N] larger forces are clipped to it. The torque and the forces on vertices shrink by the "
-       "same factor. .inf: no limit")
+       "same factor. A lower limit holds within 10 ms, whatever the rates are. .inf: no limit")
       .live();
   t.number(names::kMaxTorque, p.max_torque, {0.0, 1000.0, false, true},
            "[N m] larger torques on a free tool, about its centre, are clipped to it. The force "
-           "and the forces on vertices shrink by the same factor. .inf: no limit")
+           "and the forces on vertices shrink by the same factor. A lower limit holds within 10 "
+           "ms, whatever the rates are. .inf: no limit")
       .live();
-  t.number(
-       "max_force_rate", p.max_force_rate, {0.0, 1e6, true, false, 10.0},
-       "[N/s] the force changes by no more than this, in every state and event; so does the "
-       "torque of a free tool, divided by the tool's size. 0: from 0 to max_force in 10 ms, and "
-       "300 N/s if max_force is .inf")
+  t.number("max_force_rate", p.max_force_rate, {0.0, 1e6, true, false, 10.0},
+           "[N/s] the force changes by no more than this, in every state and event, except where a "
+           "limit is lowered or the node ends. 0: from 0 to max_force in 10 ms, and 300 N/s if "
+           "max_force is .inf")
+      .live();
+  t.number("max_torque_rate", p.max_torque_rate, {0.0, 1e5, true, false, 0.1},
+           "[N m/s] the torque on a free tool about its centre changes by no more than this, "
+           "likewise. 0: from 0 to max_torque in 10 ms, and 10 N m/s if max_torque is .inf")
       .live();
   t.number("clearance", p.clearance, {0.0, 0.1, false}, "[m] the proxy stops this far from tissue")
       .live();

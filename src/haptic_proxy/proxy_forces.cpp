@@ -1,114 +1,103 @@
 #include "proxy_forces.hpp"
 
 #include <Eigen/Geometry>
+#include <Eigen/QR>
 #include <algorithm>
-#include <utility>
+#include <cmath>
 
 namespace organ_collision {
 namespace {
 
 using Eigen::Vector3d;
 
-/// A contact or a crossing, with its force.
+/// [m] A shaft shorter than this is no lever.
+constexpr double kShortestLever = 1e-9;
+
+/// A loaded place of an organ.
 struct Place {
   std::size_t organ;
-  FaceForce on_face;  ///< in the proxy's frame; `force`: stiffness times load, on the proxy
-  Vector3d on_hand;   ///< [N] the part of this force that acts on the hand at answer.center
+  Triangle corners;  ///< [m] of the face, in the proxy's frame
+  FaceForce at;      ///< in the proxy's frame; `force` [m]: on the proxy, divided by the stiffness
 };
 
-/// The force at the tip [N] that comes from a force at the place `shaft` on the axis. Across the
-/// axis, the axis is a lever about the trocar. Along the axis, the force acts in full.
-Vector3d at_tip(const Vector3d& force, double shaft, const ShaftAxis& axis) {
-  const Vector3d direction = (axis.tip - axis.trocar).normalized();
-  const Vector3d lengthwise = direction.dot(force) * direction;
-  return lengthwise + shaft * (force - lengthwise);
-}
-
-std::vector<Place> places_of(const ProxyAnswer& answer, const std::vector<ProxyOrgan>& organs,
-                             bool has_levers, double stiffness) {
+std::vector<Place> places_of(const ProxyAnswer& answer, const std::vector<ProxyOrgan>& organs) {
   std::vector<Place> places;
-  places.reserve(answer.contacts.size() + answer.crossings.size());
-  for (const ProxyFace& at : answer.contacts) {
-    const FaceContact& contact = at.contact;
-    const Vector3d force = -stiffness * at.load * contact.normal;
-    const double lever = has_levers && contact.link == kShaft ? contact.shaft : 1.0;
-    places.push_back(
-        {at.organ,
-         {contact.face, contact.link, contact.vertices, contact.barycentric, contact.point, force},
-         lever * force});
+  const auto add = [&](std::size_t organ, std::uint32_t face, std::int32_t link,
+                       const Vector3d& barycentric, const Vector3d& force) {
+    if (force.isZero(0.0)) return;
+    const TriangleMesh& shape = *organs[organ].shape;
+    const Eigen::Isometry3d T_proxy_organ = organs[organ].T_organ_proxy.inverse();
+    Triangle corners = shape.triangle(face);
+    for (Vector3d& corner : corners) corner = T_proxy_organ * corner;
+    const FaceIndices vertices = shape.faces()[face];
+    places.push_back({organ,
+                      corners,
+                      {face, link, vertices, barycentric, point_at(corners, barycentric), force}});
+  };
+  for (const ProxyFace& near : answer.contacts) {
+    const FaceContact& contact = near.contact;
+    add(near.organ, contact.face, contact.link, contact.barycentric, -near.load * contact.normal);
   }
-  for (const ProxyCrossing& at : answer.crossings) {
-    const Vector3d force = -stiffness * at.load;
-    places.push_back({at.organ,
-                      {at.face, kShaft, organs[at.organ].shape->faces()[at.face], at.barycentric,
-                       at.point, force},
-                      at_tip(force, at.shaft, answer.proxy.axis)});
+  for (const ProxyCrossing& crossing : answer.crossings) {
+    add(crossing.organ, crossing.face, kShaft, crossing.barycentric, -crossing.load);
   }
   return places;
 }
 
-/// The share of each place in the force that the loads do not explain. The sum of the shares is 1.
-std::vector<double> shares_of(const std::vector<Place>& places) {
-  std::vector<double> shares;
-  double sum = 0.0;
-  for (const Place& place : places) sum += shares.emplace_back(place.on_face.force.norm());
-  for (double& share : shares) {
-    share = sum > 0.0 ? share / sum : 1.0 / static_cast<double>(places.size());
+/// The force at the tip of a shaft that comes from a force at a point of the tool. The tool is a
+/// lever about its trocar. Along the axis, the force acts in full.
+Vector3d at_tip(const FaceForce& at, const ShaftAxis& axis) {
+  const Vector3d along = axis.tip - axis.trocar;
+  if (along.norm() < kShortestLever) return at.force;
+  return at.force + (at.place - axis.tip).cross(at.force).cross(along) / along.squaredNorm();
+}
+
+/// The torque of forces about the hand's centre is that about the proxy's centre plus pull x sum of
+/// the forces. The latter vanishes where the proxy has come to rest, because the sum then has the
+/// direction of the pull. Adds the smallest forces at the corners of the loaded faces that make it
+/// vanish everywhere, each weighted by the load of its face. For a ball, they are no larger than
+/// the loads. Where they would be larger, they are made smaller.
+void add_balance(const ProxyAnswer& answer, std::vector<Place>& places) {
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  Vector3d torque = Vector3d::Zero();
+  double loads = 0.0;
+  for (const Place& place : places) {
+    const double load = place.at.force.norm();
+    loads += load;
+    torque -= answer.pull.cross(place.at.force);
+    for (const Vector3d& corner : place.corners) {
+      const Vector3d arm = corner - answer.center;
+      inertia += load * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
+    }
   }
-  return shares;
+  Vector3d turn = inertia.completeOrthogonalDecomposition().solve(torque);
+  const double squares = torque.dot(turn);  // of the forces, each divided by its weight
+  constexpr double kMost = 2.0;             // twice, so that rounding errors change no ball's
+  if (squares > kMost * loads) turn *= std::sqrt(kMost * loads / squares);
+  const std::size_t count = places.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      Place corner = places[i];
+      corner.at.barycentric = Vector3d::Unit(k);
+      corner.at.place = corner.corners[static_cast<std::size_t>(k)];
+      corner.at.force =
+          places[i].at.force.norm() * turn.cross(Vector3d(corner.at.place - answer.center));
+      places.push_back(corner);
+    }
+  }
+}
+
+}  // namespace
+
+Vector3d force_of(const std::vector<OrganForce>& forces) {
+  Vector3d sum = Vector3d::Zero();
+  for (const OrganForce& of_organ : forces) sum += of_organ.force;
+  return sum;
 }
 
 Vector3d torque_of(const std::vector<OrganForce>& forces) {
   Vector3d sum = Vector3d::Zero();
   for (const OrganForce& of_organ : forces) sum += of_organ.torque;
-  return sum;
-}
-
-/// Adds the forces on faces to those of the same faces and links, each once, so that their number
-/// does not grow while forces are on their way. Those that are next to nothing are left out.
-void add_forces(const std::vector<FaceForce>& more, std::vector<FaceForce>& faces) {
-  constexpr double kNothing = 1e-12;  // [N]
-  for (const FaceForce& at : more) {
-    if (at.force.norm() <= kNothing) continue;
-    const auto known = std::find_if(faces.begin(), faces.end(), [&](const FaceForce& face) {
-      return face.face == at.face && face.link == at.link;
-    });
-    if (known == faces.end()) {
-      faces.push_back(at);
-    } else {
-      known->force += at.force;
-    }
-  }
-}
-
-/// The forces at a share of the way from `from` to `to`. Each has the faces of both, except for
-/// those of triangles that are gone.
-std::vector<OrganForce> between(const std::vector<OrganForce>& from,
-                                const std::vector<OrganForce>& to, double share) {
-  std::vector<OrganForce> forces = to;
-  for (OrganForce& of_organ : forces) of_organ.scale(share);
-  for (OrganForce before : from) {
-    before.scale(1.0 - share);
-    const auto now = std::find_if(forces.begin(), forces.end(), [&](const OrganForce& of_organ) {
-      return of_organ.organ == before.organ;
-    });
-    if (now == forces.end()) {
-      forces.push_back(std::move(before));
-      continue;
-    }
-    now->force += before.force;
-    now->torque += before.torque;
-    if (now->topology != before.topology || now->frame != before.frame) continue;
-    add_forces(before.on_faces, now->on_faces);
-  }
-  return forces;
-}
-
-}  // namespace
-
-Vector3d sum_of(const std::vector<OrganForce>& forces) {
-  Vector3d sum = Vector3d::Zero();
-  for (const OrganForce& of_organ : forces) sum += of_organ.force;
   return sum;
 }
 
@@ -120,76 +109,32 @@ void OrganForce::scale(double factor) {
 
 std::vector<OrganForce> proxy_forces(const ProxyAnswer& answer,
                                      const std::vector<ProxyOrgan>& organs, ProxyFreedom freedom,
-                                     bool has_shaft, double stiffness, const Vector3d& damping) {
+                                     double stiffness, const Vector3d& damping) {
   std::vector<OrganForce> forces(organs.size());
   for (std::size_t i = 0; i < organs.size(); ++i) {
     forces[i].organ = organs[i].name;
     forces[i].topology = organs[i].shape->topology();
   }
-  const bool acts_at_tip = freedom == ProxyFreedom::kTrocar;
-  std::vector<Place> places = places_of(answer, organs, acts_at_tip && has_shaft, stiffness);
-  const Vector3d whole = stiffness * answer.pull + damping;
-  if (places.empty()) {
-    const double share = 1.0 / static_cast<double>(organs.size());
-    for (OrganForce& of_organ : forces) {
-      of_organ.force = share * whole;
-      of_organ.torque = share * (answer.center.cross(whole) + stiffness * answer.twist);
-    }
-    return forces;
-  }
-  const std::vector<double> shares = shares_of(places);
-  Vector3d unexplained = whole;
-  for (const Place& place : places) unexplained -= place.on_hand;
-
-  // Torques are summed about answer.center, where the spring pulls the hand. The last loop moves
-  // them to the frame's origin.
-  Vector3d unexplained_torque = stiffness * answer.twist;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    Place& place = places[i];
+  const bool is_free = freedom == ProxyFreedom::kFree;
+  std::vector<Place> places = places_of(answer, organs);
+  if (is_free) add_balance(answer, places);
+  for (Place& place : places) {
     OrganForce& of_organ = forces[place.organ];
-    of_organ.force += place.on_hand + shares[i] * unexplained;
-    place.on_face.force += shares[i] * unexplained;
+    FaceForce& at = place.at;
+    of_organ.force += is_free ? at.force : at_tip(at, answer.proxy.axis);
+    if (is_free) of_organ.torque += (at.place - answer.center).cross(at.force);
     const Eigen::Isometry3d& T_organ_proxy = organs[place.organ].T_organ_proxy;
-    FaceForce& on_face = of_organ.on_faces.emplace_back(place.on_face);
-    on_face.place = T_organ_proxy * place.on_face.place;
-    on_face.force = T_organ_proxy.linear() * place.on_face.force;
-    if (acts_at_tip) continue;
-    const Vector3d torque = (place.on_face.place - answer.center).cross(place.on_face.force);
-    of_organ.torque += torque;
-    unexplained_torque -= torque;
+    at.place = T_organ_proxy * at.place;
+    at.force = T_organ_proxy.linear() * at.force;
+    of_organ.on_faces.push_back(at);
   }
-  if (!acts_at_tip) {
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      forces[places[i].organ].torque += shares[i] * unexplained_torque;
-    }
+  double factor = stiffness;
+  const Vector3d whole = force_of(forces);
+  if (!whole.isZero(0.0)) {
+    factor += std::clamp(damping.dot(whole) / whole.squaredNorm(), -stiffness, stiffness);
   }
-  for (OrganForce& of_organ : forces) of_organ.torque += answer.center.cross(of_organ.force);
+  for (OrganForce& of_organ : forces) of_organ.scale(factor);
   return forces;
-}
-
-const std::vector<OrganForce>& ForceRateLimit::follow(const std::vector<OrganForce>& target,
-                                                      double rate, const Vector3d& center,
-                                                      double size, Time now) {
-  const auto passed = last_ ? now - *last_ : Time::duration(0);
-  const std::chrono::duration<double> counted = std::min<Time::duration>(passed, kLongestStep);
-  last_ = now;
-  const double most = rate * counted.count();
-  const Vector3d force = sum_of(target) - sum_of(forces_);
-  const Vector3d torque = torque_of(target) - torque_of(forces_) - center.cross(force);
-  const double change = std::max(force.norm(), size > 0.0 ? torque.norm() / size : 0.0);
-  is_on_its_way_ = change > most;
-  forces_ = is_on_its_way_ ? between(forces_, target, most / change) : target;
-  if (size == 0.0) {
-    for (OrganForce& of_organ : forces_) of_organ.torque = center.cross(of_organ.force);
-  }
-  return forces_;
-}
-
-void ForceRateLimit::rotate(const Eigen::Matrix3d& R_new_old) {
-  for (OrganForce& of_organ : forces_) {
-    of_organ.force = R_new_old * of_organ.force;
-    of_organ.torque = R_new_old * of_organ.torque;
-  }
 }
 
 }  // namespace organ_collision

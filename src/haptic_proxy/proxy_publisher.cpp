@@ -1,13 +1,11 @@
 #include "proxy_publisher.hpp"
 
 #include <geometry_msgs/PoseStamped.h>
-#include <geometry_msgs/WrenchStamped.h>
 #include <organ_collision/ContactArray.h>
-#include <organ_collision/ProxyState.h>
-#include <organ_collision/VertexForces.h>
 #include <ros/names.h>
 #include <tf2_eigen/tf2_eigen.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <iterator>
 
@@ -43,12 +41,13 @@ std_msgs::Header header_of(const ProxyReport& report) {
   return header;
 }
 
-geometry_msgs::WrenchStamped wrench_of(const ProxyReport& report, const OrganForce& of_organ) {
-  geometry_msgs::WrenchStamped message;
-  message.header = header_of(report);
-  message.wrench.force = to_vector(of_organ.force);
-  message.wrench.torque = to_vector(of_organ.torque);
-  return message;
+/// The message of a force, and a torque about the tool's centre.
+geometry_msgs::Wrench wrench_about_origin(const ProxyReport& report, const Vector3d& force,
+                                          const Vector3d& torque) {
+  geometry_msgs::Wrench wrench;
+  wrench.force = to_vector(force);
+  wrench.torque = to_vector(torque + report.center.cross(force));
+  return wrench;
 }
 
 /// The contacts that basins_of() compares: those of one organ.
@@ -75,35 +74,7 @@ std::map<std::pair<std::uint32_t, std::int32_t>, Vector3d> forces_on(const Proxy
   return forces;
 }
 
-ProxyState state_of(const ProxyReport& report) {
-  ProxyState state;
-  state.header = header_of(report);
-  state.tool = report.tool.name;
-  state.message = plain_text(report.message, kLongestMessage);
-  state.tick_sec = report.tick_sec;
-  state.clipped = report.clipped_by != nullptr;
-  state.fading = report.is_fading;
-  state.hand.orientation.w = state.proxy.orientation.w = 1.0;
-  if (report.hand) state.hand = pose_of(report.tool, *report.hand);
-  if (report.proxy) state.proxy = pose_of(report.tool, *report.proxy);
-  if (report.answer) {
-    state.state = static_cast<std::uint8_t>(report.answer->state);
-    state.placed_anew = report.answer->is_placed_anew;
-    state.pull = to_vector(report.answer->pull);
-    state.contacts = places_of(report);
-  }
-  Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero();
-  for (const OrganForce& of_organ : report.forces) {
-    force += of_organ.force;
-    torque += of_organ.torque;
-  }
-  state.wrench.force = to_vector(force);
-  state.wrench.torque = to_vector(torque);
-  return state;
-}
-
-}  // namespace
-
+/// What ProxyState.contacts has. `report`: with an answer.
 std::vector<ProxyContact> places_of(const ProxyReport& report) {
   std::vector<ProxyContact> places;
   for (std::size_t organ = 0; organ < report.scene->organs.size(); ++organ) {
@@ -145,11 +116,57 @@ std::vector<ProxyContact> places_of(const ProxyReport& report) {
     });
     if (same != different.end()) {
       same->force = to_vector(to_eigen(same->force) + to_eigen(place.force));
-    } else if (different.size() < kMostPlaces) {
+    } else {
       different.push_back(place);
     }
   }
+  // Where there are more places than a state has, those that bear a force stay.
+  for (auto at = different.end(); different.size() > kMostPlaces && at != different.begin();) {
+    --at;
+    if (to_eigen(at->force).isZero(0.0)) at = different.erase(at);
+  }
   return different;
+}
+
+}  // namespace
+
+ProxyState state_of(const ProxyReport& report) {
+  ProxyState state;
+  state.header = header_of(report);
+  state.tool = report.tool.name;
+  state.message = plain_text(report.message, kLongestMessage);
+  state.tick_sec = report.tick_sec;
+  state.clipped = report.clipped_by != nullptr;
+  state.fading = report.is_fading;
+  state.hand.orientation.w = state.proxy.orientation.w = 1.0;
+  if (report.hand) state.hand = pose_of(report.tool, *report.hand);
+  if (report.proxy) state.proxy = pose_of(report.tool, *report.proxy);
+  if (report.answer) {
+    state.state = static_cast<std::uint8_t>(report.answer->state);
+    state.placed_anew = report.answer->is_placed_anew;
+    state.pull = to_vector(report.answer->pull);
+    state.contacts = places_of(report);
+  }
+  state.center = tf2::toMsg(report.center);
+  state.wrench = wrench_about_origin(report, force_of(report.forces), torque_of(report.forces));
+  return state;
+}
+
+geometry_msgs::WrenchStamped wrench_of(const ProxyReport& report, const OrganForce& of_organ) {
+  geometry_msgs::WrenchStamped message;
+  message.header = header_of(report);
+  message.wrench = wrench_about_origin(report, of_organ.force, of_organ.torque);
+  return message;
+}
+
+VertexForces vertex_forces_of(const ProxyReport& report, const OrganForce& of_organ) {
+  ContactArray about;
+  about.header.stamp = report.stamp;
+  about.header.frame_id = of_organ.frame;
+  about.organ = of_organ.organ;
+  about.topology = of_organ.topology;
+  about.tool = report.tool.name;
+  return vertex_forces(about, of_organ.on_faces);
 }
 
 ProxyPublisher::ProxyPublisher(const ros::NodeHandle& private_node, FailureLog& failed,
@@ -179,26 +196,16 @@ void ProxyPublisher::set_tools(const std::vector<ToolParameters>& tools) {
 
 void ProxyPublisher::publish(const ProxyReport& report) {
   ToolTopics& topics = tools_.at(report.tool.name);
-  publish_wrenches(report);
-  publish_proxy(report, topics);
-  topics.state.publish(state_of(report));
-  publish_vertex_forces(report);
-}
-
-void ProxyPublisher::publish_wrenches(const ProxyReport& report) {
-  std::map<std::pair<std::string, std::string>, bool> is_reported;
   for (const OrganForce& of_organ : report.forces) {
     PairTopics* pair = pair_of(of_organ.organ, report.tool.name);
-    if (!pair) continue;
-    pair->wrench.publish(wrench_of(report, of_organ));
-    pair->is_pressed = !of_organ.force.isZero(0.0);
-    is_reported[{report.tool.name, of_organ.organ}] = true;
+    if (pair) pair->wrench.publish(wrench_of(report, of_organ));
   }
-  // An organ that was removed must not leave its last force behind.
-  for (auto& [key, pair] : pairs_) {
-    if (key.first != report.tool.name || !pair.is_pressed || is_reported.count(key) > 0) continue;
-    pair.wrench.publish(wrench_of(report, {}));
-    pair.is_pressed = false;
+  publish_proxy(report, topics);
+  topics.state.publish(state_of(report));
+  for (const OrganForce& of_organ : report.forces) {
+    PairTopics* pair = pair_of(of_organ.organ, report.tool.name);
+    if (!pair || pair->vertex_forces.getNumSubscribers() == 0) continue;
+    pair->vertex_forces.publish(vertex_forces_of(report, of_organ));
   }
 }
 
@@ -221,20 +228,6 @@ void ProxyPublisher::publish_proxy(const ProxyReport& report, ToolTopics& topics
   transform.transform.translation.z = pose.position.z;
   transform.transform.rotation = pose.orientation;
   frames_->sendTransform(transform);
-}
-
-void ProxyPublisher::publish_vertex_forces(const ProxyReport& report) {
-  for (const OrganForce& of_organ : report.forces) {
-    PairTopics* pair = pair_of(of_organ.organ, report.tool.name);
-    if (!pair || pair->vertex_forces.getNumSubscribers() == 0) continue;
-    ContactArray about;
-    about.header.stamp = report.stamp;
-    about.header.frame_id = of_organ.frame;
-    about.organ = of_organ.organ;
-    about.topology = of_organ.topology;
-    about.tool = report.tool.name;
-    pair->vertex_forces.publish(vertex_forces(about, of_organ.on_faces));
-  }
 }
 
 /// The topics of an organ and a tool. Null if no name is free for them.

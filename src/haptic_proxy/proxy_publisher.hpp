@@ -1,6 +1,8 @@
 #pragma once
 
-#include <organ_collision/ProxyContact.h>
+#include <geometry_msgs/WrenchStamped.h>
+#include <organ_collision/ProxyState.h>
+#include <organ_collision/VertexForces.h>
 #include <ros/node_handle.h>
 #include <tf2_ros/transform_broadcaster.h>
 
@@ -31,10 +33,14 @@ struct ProxyCounters {
   FailureLog placed_anew;          ///< proxies that jumped to a new place, without a motion
 };
 
-/// What ProxyState.contacts has: the nearest place of each locally convex patch of tissue near the
-/// proxy, the nearest first, with the published force on the whole patch. At most 32. `report`:
-/// with an answer.
-std::vector<ProxyContact> places_of(const ProxyReport& report);
+// The messages about a report. All their forces are made of report.forces.
+
+/// Its contacts are the nearest places of all locally convex patches of tissue near the proxy, each
+/// with the force on the whole patch.
+ProxyState state_of(const ProxyReport& report);
+/// `of_organ`: one of report.forces.
+geometry_msgs::WrenchStamped wrench_of(const ProxyReport& report, const OrganForce& of_organ);
+VertexForces vertex_forces_of(const ProxyReport& report, const OrganForce& of_organ);
 
 /// Publishes reports about tools. Wrenches come first, because a hand waits for them.
 class ProxyPublisher {
@@ -54,12 +60,9 @@ class ProxyPublisher {
   };
   struct PairTopics {
     ros::Publisher wrench, vertex_forces;
-    bool is_pressed = false;  ///< the last wrench was not zero
   };
 
-  void publish_wrenches(const ProxyReport& report);
   void publish_proxy(const ProxyReport& report, ToolTopics& topics);
-  void publish_vertex_forces(const ProxyReport& report);
   PairTopics* pair_of(const std::string& organ, const std::string& tool);
 
   ros::NodeHandle private_node_;

@@ -22,6 +22,17 @@ geometry_msgs::Pose pose_of(const ToolParameters& tool, const ToolPose& pose) {
   return tf2::toMsg(tip);
 }
 
+namespace {
+
+ToolPose operator*(const Eigen::Isometry3d& T_new_old, ToolPose pose) {
+  pose.axis = {T_new_old * pose.axis.trocar, T_new_old * pose.axis.tip};
+  for (Eigen::Isometry3d& link : pose.links) link = T_new_old * link;
+  if (pose.tip) pose.tip = T_new_old * *pose.tip;
+  return pose;
+}
+
+}  // namespace
+
 const Vector3d& PullVelocity::update(const Vector3d& pull, ros::Time stamp, bool leaps) {
   // ros::Duration overflows for extreme stamps.
   const double interval =
@@ -52,19 +63,18 @@ ProxyReport ToolProxy::follow(const Timed<ToolPose>& hand, const ProxyScene& sce
     throw Rejection(ContactArray::INVALID_REQUEST, "no proxy", answer.message);
   }
   const ros::Time stamp = hand.stamp.isZero() ? ros::Time::now() : hand.stamp;
-  const LimitedForces forces = limited_forces(answer, scene, damping(answer, scene, stamp));
+  std::vector<OrganForce> target = forces(answer, scene, damping(answer, scene, stamp));
   is_lost_ = false;
   hand_ = hand.value;
   answer_ = &answer;
   held_ = answer.proxy;
   frame_ = scene.frame;
   center_ = answer.center;
-  size_ = tool_.freedom == ProxyFreedom::kFree ? answer.size : 0.0;
   ProxyReport report{tool_, frame_, stamp, ContactArray::OK, answer.message, hand_, held_};
   report.answer = &answer;
   report.scene = &scene;
   report.tick_sec = passed.count();
-  set_forces(report, forces, now);
+  set_forces(report, std::move(target), now);
   return report;
 }
 
@@ -78,44 +88,27 @@ ProxyReport ToolProxy::lose(std::uint8_t status, const std::string& message,
   return report;
 }
 
-/// The forces of the organs on the hand. If a limit is exceeded, the whole wrench shrinks by one
-/// factor. Throws Rejection if the wrench is not finite.
-ToolProxy::LimitedForces ToolProxy::limited_forces(const ProxyAnswer& answer,
-                                                   const ProxyScene& scene,
-                                                   const Vector3d& damping_force) const {
-  LimitedForces limited{proxy_forces(answer, scene.organs, tool_.freedom, tool_.has_shaft(),
-                                     parameters_.stiffness, damping_force)};
-  Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero();
-  for (std::size_t i = 0; i < limited.of_organs.size(); ++i) {
-    OrganForce& of_organ = limited.of_organs[i];
-    of_organ.frame = scene.sources[i]->frame();
-    force += of_organ.force;
-    torque += of_organ.torque;
-  }
-  if (!force.allFinite() || !torque.allFinite()) {
+/// The forces of the organs on the hand. Throws Rejection if they are not finite.
+std::vector<OrganForce> ToolProxy::forces(const ProxyAnswer& answer, const ProxyScene& scene,
+                                          const Vector3d& damping_force) const {
+  std::vector<OrganForce> forces =
+      proxy_forces(answer, scene.organs, tool_.freedom, parameters_.stiffness, damping_force);
+  for (std::size_t i = 0; i < forces.size(); ++i) forces[i].frame = scene.sources[i]->frame();
+  if (!force_of(forces).allFinite() || !torque_of(forces).allFinite()) {
     throw Rejection(ContactArray::INVALID_REQUEST, "no force",
                     "the force or its torque is not a finite number");
   }
-  double share = share_within_limit(force, parameters_.max_force);
-  if (share < 1.0) limited.clipped_by = names::kMaxForce;
-  if (tool_.freedom == ProxyFreedom::kFree) {
-    const Vector3d about_center = torque - answer.center.cross(force);
-    const double of_torque = share_within_limit(about_center, parameters_.max_torque);
-    if (of_torque < share) {
-      share = of_torque;
-      limited.clipped_by = names::kMaxTorque;
-    }
-  }
-  for (OrganForce& of_organ : limited.of_organs) of_organ.scale(share);
-  return limited;
+  return forces;
 }
 
 /// Lets the published forces follow the target.
-void ToolProxy::set_forces(ProxyReport& report, const LimitedForces& target, Time now) {
-  report.forces =
-      rate_limit_.follow(target.of_organs, force_rate(parameters_), center_, size_, now);
-  report.is_fading = rate_limit_.is_on_its_way();
-  report.clipped_by = target.clipped_by;
+void ToolProxy::set_forces(ProxyReport& report, std::vector<OrganForce> target, Time now) {
+  WrenchLimits limits = wrench_limits(parameters_);
+  if (lets_go_) limits.force = limits.torque = 0.0;
+  report.center = center_;
+  report.forces = limiter_.follow(std::move(target), limits, now);
+  report.is_fading = limiter_.is_on_its_way();
+  report.clipped_by = limiter_.clipped_by();
 }
 
 /// The damping force on the hand [N]. It is at most as large as the spring's force, so that it
@@ -145,14 +138,17 @@ void ToolProxy::reset() {
   velocity_ = {};
 }
 
-void ToolProxy::change_frame(const std::string& frame, const Eigen::Matrix3d& R_new_old) {
+void ToolProxy::change_frame(const std::string& frame, const Eigen::Isometry3d& T_new_old) {
   frame_ = frame;
-  center_ = R_new_old * center_;
-  rate_limit_.rotate(R_new_old);
-  hand_.reset();
-  held_.reset();
+  center_ = T_new_old * center_;
+  if (hand_) hand_ = T_new_old * *hand_;
+  if (held_) held_ = T_new_old * *held_;
+  limiter_.rotate(T_new_old.linear());
 }
 
-void ToolProxy::update_settings() { proxy_.set_settings(proxy_settings(parameters_, tool_)); }
+void ToolProxy::update_settings() {
+  proxy_.set_settings(proxy_settings(parameters_, tool_));
+  limiter_.expect_change();
+}
 
 }  // namespace organ_collision

@@ -16,6 +16,7 @@
 #include "ros/motion/transform_buffer.hpp"
 #include "ros/parameters/node_parameters.hpp"
 #include "ros/tools/tool.hpp"
+#include "wrench_limiter.hpp"
 
 namespace organ_collision {
 
@@ -26,12 +27,13 @@ struct ProxyReport {
   ros::Time stamp;      ///< of the hand's pose; the time now if there is no answer or no stamp
   std::uint8_t status;  ///< ContactArray.status: OK, or why there is no answer
   std::string message;  ///< why there is no answer, or why the proxy was placed anew
-  std::optional<ToolPose> hand = {};    ///< the hand's last pose that had an answer
-  std::optional<ToolPose> proxy = {};   ///< the proxy's last pose
-  const ProxyAnswer* answer = nullptr;  ///< null: there is no answer
-  const ProxyScene* scene = nullptr;    ///< the organs of the answer
-  std::vector<OrganForce> forces = {};  ///< as published: limited, and on their way
-  bool is_fading = false;               ///< the forces are on their way to those of this state
+  std::optional<ToolPose> hand = {};                 ///< the hand's last pose that had an answer
+  std::optional<ToolPose> proxy = {};                ///< the proxy's last pose
+  const ProxyAnswer* answer = nullptr;               ///< null: there is no answer
+  const ProxyScene* scene = nullptr;                 ///< the organs of the answer
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< [m] of the tool in `hand`
+  std::vector<OrganForce> forces = {};               ///< as published: limited, and on their way
+  bool is_fading = false;  ///< the forces are on their way to those of this state
   /// The parameter whose limit reduced the forces. Null: no limit reduced them.
   const char* clipped_by = nullptr;
   double tick_sec = 0.0;  ///< [s] how long HapticProxy::follow() took
@@ -63,11 +65,11 @@ class PullVelocity {
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
 };
 
-/// The proxy of one tool and its force. The force and its rate of change are limited. The force
-/// fades out when answers end.
+/// The proxy of one tool and its force. Force and torque about the tool's centre, and their rates
+/// of change, are limited. They fade when answers end.
 class ToolProxy {
  public:
-  using Time = ForceRateLimit::Time;
+  using Time = WrenchLimiter::Time;
 
   /// `parameters` must outlive this. Throws GlError, and std::invalid_argument if the tool is
   /// illegal.
@@ -83,44 +85,41 @@ class ToolProxy {
                    Time now);
   /// Whether the published force is on its way. Then follow() or lose() has to be called soon, even
   /// if the hand rests.
-  bool is_fading() const { return rate_limit_.is_on_its_way(); }
+  bool is_fading() const { return limiter_.is_on_its_way(); }
+  /// From now on, the limits of force and torque are zero: lose() ends the force within 10 ms,
+  /// whatever the parameters are.
+  void let_go() { lets_go_ = true; }
 
   /// The last pose of the hand that had an answer.
   const std::optional<ToolPose>& hand() const { return hand_; }
   /// The answer to the last pose; null if there is none. Valid until the next follow() or reset().
   const ProxyAnswer* answer() const { return is_lost_ ? nullptr : answer_; }
   /// [N] The magnitude of the force on the hand, as it was published last.
-  double force() const { return sum_of(rate_limit_.forces()).norm(); }
+  double force() const { return force_of(limiter_.forces()).norm(); }
 
   /// The next tick places the proxy anew. Until then, there is no answer.
   void reset();
-  /// From now on, the reports are in another frame. `R_new_old`: the rotation of the old frame in
-  /// it.
-  void change_frame(const std::string& frame, const Eigen::Matrix3d& R_new_old);
+  /// From now on, the reports are in another frame. `T_new_old`: from the old frame to it.
+  void change_frame(const std::string& frame, const Eigen::Isometry3d& T_new_old);
   /// Call it when the parameters have changed.
   void update_settings();
 
  private:
-  struct LimitedForces {
-    std::vector<OrganForce> of_organs = {};
-    const char* clipped_by = nullptr;  ///< ProxyReport::clipped_by
-  };
-
-  LimitedForces limited_forces(const ProxyAnswer& answer, const ProxyScene& scene,
-                               const Eigen::Vector3d& damping_force) const;
+  std::vector<OrganForce> forces(const ProxyAnswer& answer, const ProxyScene& scene,
+                                 const Eigen::Vector3d& damping_force) const;
   Eigen::Vector3d damping(const ProxyAnswer& answer, const ProxyScene& scene, ros::Time stamp);
-  void set_forces(ProxyReport& report, const LimitedForces& target, Time now);
+  void set_forces(ProxyReport& report, std::vector<OrganForce> target, Time now);
 
   ToolParameters tool_;
   const HapticProxyParameters& parameters_;
   HapticProxy proxy_;
-  ForceRateLimit rate_limit_;
+  WrenchLimiter limiter_;
+  bool lets_go_ = false;
   bool is_lost_ = true;  ///< there was no answer at the last call
   const ProxyAnswer* answer_ = nullptr;
-  Eigen::Vector3d center_ = Eigen::Vector3d::Zero();  ///< [m] of the last answer
-  double size_ = 0.0;                    ///< [m] of a free tool in the last answer; else 0
-  std::string frame_;                    ///< the frame of the published forces, hand_ and held_
+  std::string frame_;                    ///< the frame of the published forces and the next three
   std::optional<ToolPose> hand_, held_;  ///< the last poses of the hand and the proxy
+  Eigen::Vector3d center_ = Eigen::Vector3d::Zero();  ///< [m] of the tool in hand_
   PullVelocity velocity_;                ///< of the proxy relative to the hand, in resting tissue
   std::vector<ProxyOrgan> organs_;       ///< at the last tick
   Eigen::Vector3d pushed_ = Eigen::Vector3d::Zero();  ///< [m] sum of TissuePush::way

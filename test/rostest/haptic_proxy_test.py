@@ -195,6 +195,13 @@ class HapticProxyTest(ProxyCase):
         for axis in 'xyz':
             total = sum(getattr(force, axis) for force in on_tissue.forces)
             self.assertAlmostEqual(total, -getattr(wrench.wrench.force, axis), delta=1e-6)
+        on_vertices = [(SHEET.vertices[i], vector(force)) for i, force in zip(on_tissue.vertices, on_tissue.forces)]
+        for i, expected in enumerate(vector(wrench.wrench.torque)):
+            a, b = (i + 1) % 3, (i + 2) % 3
+            torque = sum(at[a] * force[b] - at[b] * force[a] for at, force in on_vertices)
+            self.assertAlmostEqual(torque, -expected, delta=1e-6)
+        for center, tip, trocar in zip(vector(state.center), vector(state.hand.position), TROCAR):
+            self.assertAlmostEqual(center, 0.5 * (tip + trocar), delta=1e-9)
         place = state.contacts[0]
         self.assertEqual((place.organ, place.link, vector(place.velocity)), (self.organ, -1, (0.0, 0.0, 0.0)))
         self.assertAlmostEqual(place.normal.z, -1.0, delta=1e-6)

@@ -51,6 +51,7 @@ ros::NodeHandle on_queue(ros::NodeHandle node, ros::CallbackQueue& queue) {
 
 void QueueThread::stop() {
   stop_ = true;
+  queue_.disable();  // The thread need not wait for the stop period.
   if (thread_.joinable()) thread_.join();
 }
 
