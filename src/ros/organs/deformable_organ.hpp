@@ -4,6 +4,7 @@
 #include <ros/time.h>
 
 #include <chrono>
+#include <cstdint>
 #include <future>
 #include <map>
 #include <memory>
@@ -64,7 +65,7 @@ class OrganSurface {
 struct OrganShape {
   std::shared_ptr<const TriangleMesh> mesh;  ///< null: no shape
   ros::Time stamp;                           ///< the stamp of the message; zero: it has none
-  ros::Time received;
+  ros::Time received;                        ///< when the message was applied, by the node's clock
   std::shared_ptr<OrganSurface> surface = {};  ///< what is known of the triangles; null: no shape
 
   /// How the mesh's faces join. Null until OrganSurface::find() is done.
@@ -72,12 +73,11 @@ struct OrganShape {
     return surface->is_found() ? &surface->topology() : nullptr;
   }
 
-  /// [s] The time since the stamp. If the message had no stamp, or its stamp was in the future when
-  /// the message came, the time since the message came. (Before the first /clock, messages come at
-  /// time zero, and every stamp counts.)
+  /// [s] The time since the shape came, by the node's own clock. The stamp does not count: the
+  /// sender's clock may differ. (Before the first /clock, messages come at time zero. Of these, the
+  /// stamp counts.)
   double age(ros::Time now) const {
-    const bool is_of_future = received < stamp && !received.isZero();
-    return now.toSec() - (stamp.isZero() || is_of_future ? received : stamp).toSec();
+    return now.toSec() - (received.isZero() ? stamp : received).toSec();
   }
 };
 
@@ -91,7 +91,7 @@ class DeformableOrgan {
   const std::string& frame() const { return frame_; }
   const OrganShape& latest() const { return latest_; }
   /// The shape before the latest one. It has no mesh if the latest shape is the first one with its
-  /// triangles, and after forget_previous() or set_frame().
+  /// triangles, and after forget_previous(), begin_history() or set_frame().
   const OrganShape& previous() const { return previous_; }
   /// What is known of the surface. After the triangles have changed, this returns another object.
   const std::shared_ptr<OrganSurface>& surface() const { return latest_.surface; }
@@ -109,6 +109,14 @@ class DeformableOrgan {
     previous_ = {};
   }
   void forget_previous() { previous_ = {}; }
+  /// To be called when the latest shape has nothing to do with the shapes before, because the
+  /// organ's sender has restarted.
+  void begin_history() {
+    previous_ = {};
+    ++histories_;
+  }
+  /// How often begin_history() was called.
+  std::uint32_t histories() const { return histories_; }
   /// To be called when the clock has jumped back to `now`, or has begun. If the latest shape was
   /// received later, or before the clock began, that shape counts as received at `now`.
   void receive_anew(ros::Time now);
@@ -118,6 +126,7 @@ class DeformableOrgan {
   std::string frame_;
   OrganShape latest_;
   OrganShape previous_;
+  std::uint32_t histories_ = 0;
   std::vector<std::shared_ptr<TriangleMesh>> shapes_;  ///< all with the present triangles
 };
 
