@@ -86,6 +86,7 @@ ToolProxy::LimitedForces ToolProxy::limited_forces(const ProxyAnswer& answer,
   Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero();
   for (std::size_t i = 0; i < limited.of_organs.size(); ++i) {
     OrganForce& of_organ = limited.of_organs[i];
+    of_organ.organ = scene.sources[i]->name();
     of_organ.frame = scene.sources[i]->frame();
     force += of_organ.force;
     torque += of_organ.torque;
