@@ -78,6 +78,8 @@ inline OrganVertices vertices(float z, std::uint32_t topology = 1) {
 
 class OrganRegistryTest : public testing::Test {
  protected:
+  OrganRegistryTest() { ros::Time::init(); }  // Warnings have a time.
+
   OrganChange apply(const OrganMesh& message, ros::Time now, const Connection& connection = {}) {
     const auto pointer = boost::make_shared<const OrganMesh>(message);
     return store_.apply(pointer, connection, now, [&] { return store_.build(pointer); });

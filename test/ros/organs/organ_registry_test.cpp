@@ -295,7 +295,6 @@ TEST_F(OrganRegistryTest, ASenderThatCrashedIsGoneWhenAnotherOneMovesTheOrgan) {
 }
 
 TEST_F(OrganRegistryTest, TwoOpenSendersAreWarnedOfAndHistoryGoesOn) {
-  ros::Time::init();
   ros::Time::setNow(ros::Time(5000.0));
   const ros::M_stringPtr left = header("/left"), right = header("/right");
   CapturedLog log;
