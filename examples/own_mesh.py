@@ -34,9 +34,12 @@ last_line = None
 def show(answer):
     global last_line
     if answer.status != ContactArray.OK:
-        rospy.logwarn_throttle(1, answer.message)
-    elif answer.contacts:
-        contacts = contact_table(answer)
+        return rospy.logwarn_throttle(1, answer.message)
+    if answer.step_start < started:
+        return  # The step begins where another program left the probe, perhaps far away.
+    contacts = contact_table(answer)
+    contacts = contacts[contacts.touching]  # The probe has left the others again.
+    if len(contacts) > 0:
         deepest = contacts[contacts.depth.argmax()]
         line = '%s touches %d faces, deepest in face %d: %.1f mm' % (
             answer.tool, len(contacts), deepest.face, 1e3 * deepest.depth)
@@ -46,7 +49,9 @@ def show(answer):
 
 
 def main():
+    global started
     rospy.init_node('own_mesh')
+    started = rospy.Time.now()
     rospy.Subscriber('/organ_collision/contacts', ContactArray, show)
     frames = tf2_ros.TransformBroadcaster()
     vertices, faces = read_mesh(options.file or KIDNEY, options.scale)

@@ -210,7 +210,7 @@ Timed<ToolPose> HapticProxyNode::latest_pose(std::size_t tool) const {
 
 /// Whether the tool's hand needs a tick, because its pose is new, or its force fades or rises. A
 /// pose that is valid at any time counts as new whenever an organ moves. Throws Rejection if the
-/// pose or the newest transform of the proxy's frame is too old.
+/// pose or the last transform of the proxy's frame came too long ago.
 bool HapticProxyNode::is_due(std::size_t tool, ros::Time stamp, bool have_organs_moved, Time now) {
   Hand& hand = hands_[tool];
   const bool is_at_any_time = stamp.isZero();
@@ -223,8 +223,8 @@ bool HapticProxyNode::is_due(std::size_t tool, ros::Time stamp, bool have_organs
     hand.heard = now;
     return true;
   }
-  check_age(inbox_.transforms, frame_.name(), swept_frames(core_.tools()[tool]), stamp,
-            age_limits(), ros::Time::now());
+  check_age(inbox_.transforms, frame_.name(), swept_frames(core_.tools()[tool]), age_limits(),
+            ros::Time::now());
   const double timeout = core_.parameters().pose_timeout_sec;
   if (!is_at_any_time && now - *hand.heard > duration(timeout)) {
     const ToolParameters& parameters = core_.tools()[tool].parameters;

@@ -42,7 +42,7 @@ struct HapticProxyParameters : OrganNodeParameters {
   double puncture_force = 0.0;  ///< [N] at this force, a needle pierces; 0: never
   double friction = 0.0;        ///< [N] along a needle that has pierced tissue
   double pose_timeout_sec = 0.02;
-  double frame_timeout_sec = 0.5;  ///< most age of an organ's frame, unless static; 0: any
+  double frame_timeout_sec = 0.5;  ///< since an organ's frame came, unless static; 0: any
   bool organ_interpolation = true;
   bool publish_tf = true;
 };
@@ -124,12 +124,15 @@ inline ParameterTable table_of(HapticProxyParameters& p) {
   t.number("pose_timeout_sec", p.pose_timeout_sec, kTimerPeriod,
            "[s] of wall time after the last pose of the hand, the force fades. Raise it for poses "
            "slower than 100 Hz");
-  t.number(names::kMeshTimeoutSec, p.mesh_timeout_sec, kNotNegative,
-           "[s] if the mesh of any organ is older than this, or its frame on TF, there is no "
-           "answer. 0: never");
-  t.number(names::kFrameTimeoutSec, p.frame_timeout_sec, kNotNegative,
-           "[s] if TF has no newer transform than this between an organ's frame and that of the "
-           "proxies or the hand, there is no answer. Static transforms have no age. 0: never");
+  t.number(
+      names::kMeshTimeoutSec, p.mesh_timeout_sec, kNotNegative,
+      "[s] if the last shape of any organ, or the last transform of its frame, came longer ago "
+      "than this, there is no answer. 0: never");
+  t.number(
+      names::kFrameTimeoutSec, p.frame_timeout_sec, kNotNegative,
+      "[s] if the last transform of a frame between an organ's frame and that of the proxies or "
+      "the hand came longer ago than this, there is no answer. Static transforms have no age. "
+      "0: never");
   add_picker(t, p.picker);
   add_limits(t, p);
   t.flag(

@@ -18,7 +18,9 @@ void OrganInterpolation::update(const OrganRegistry& organs, Time now) {
     if (const auto known = ways_.find(name); known != ways_.end()) way = std::move(known->second);
     const std::shared_ptr<const TriangleMesh>& latest = organ.latest().mesh;
     if (way.to == latest) continue;
-    const bool is_comparable = way.to && way.to->topology() == latest->topology() &&
+    // Without a previous shape, the organ has new triangles, a new frame or a restarted sender.
+    const bool is_comparable = way.to && organ.latest().before &&
+                               way.to->topology() == latest->topology() &&
                                way.to->same_faces(*latest) && latest->vertex_count() <= kLargest;
     const std::chrono::duration<double> since = std::min<Time::duration>(now - way.start, kLongest);
     way.from = is_comparable ? shape_on(way, now) : latest;

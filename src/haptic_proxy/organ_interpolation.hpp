@@ -13,8 +13,9 @@ namespace organ_collision {
 
 /// Moves organs from shape to shape over the time between shapes, one such time late, so that
 /// shapes that come at 60 Hz do not push a hand sixty times a second. An organ begins each way
-/// where it is, and rests when it has arrived. New triangles are there at once. The velocity of the
-/// tissue is OrganShape::moves_from(), as without interpolation.
+/// where it is, and rests when it has arrived. New triangles are there at once, and so is the first
+/// shape of a sender that has restarted. The velocity of the tissue is OrganShape::moves_from(), as
+/// without interpolation.
 class OrganInterpolation {
  public:
   using Time = std::chrono::steady_clock::time_point;

@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// How old the newest transform of a frame may be.
+/// How long ago the last transform of a frame may have come.
 struct FrameLimit {
   double seconds;
   const char* parameter;  ///< the name of the parameter with this limit
@@ -29,29 +29,10 @@ FrameLimit frame_limit(const AgeLimits& limits) {
   return is_first ? of_meshes : of_frames;
 }
 
-/// [s] The age of a stamp. It is 0 if the stamp is ahead of the clock, or zero as in static frames.
-double age(ros::Time stamp, ros::Time now) {
-  return stamp.isZero() ? 0.0 : std::max(0.0, now.toSec() - stamp.toSec());
-}
-
-bool is_old(ros::Time stamp, const FrameLimit& limit, ros::Time now) {
-  return limit.seconds > 0.0 && age(stamp, now) > limit.seconds;
-}
-
-Rejection stale_frame(const NewestTransform& newest, const FrameLimit& limit, ros::Time now) {
-  return {ContactArray::STALE_MESH, "stale frame",
-          concatenate("the newest transform of frame '", newest.frame, "' is ",
-                      duration_text(age(newest.stamp, now)), " old; at most ", limit.seconds,
-                      " s are allowed (", limit.parameter, ")")};
-}
-
-/// Of the frames between `a` and `b`, the one whose newest transform is the oldest. It is `a` if
-/// all of them are static.
-std::string oldest_between(const TransformBuffer& transforms, const std::string& a,
-                           const std::string& b) {
-  const auto of_a = transforms.oldest_transform(a, {b}), of_b = transforms.oldest_transform(b, {a});
-  if (of_b && (!of_a || of_b->stamp < of_a->stamp)) return of_b->frame;
-  return of_a ? of_a->frame : a;
+/// The organ's name for a proxy. When its sender restarts, the organ gets another name, and is
+/// therefore another organ: it does not carry the proxy from the old shape to the new one.
+std::string name_of_history(const DeformableOrgan& organ) {
+  return organ.histories() == 0 ? organ.name() : concatenate(organ.name(), " ", organ.histories());
 }
 
 /// [1] The least lever of a place near the trocar.
@@ -141,7 +122,6 @@ ProxyScene proxy_scene(const OrganRegistry& organs, const TransformBuffer& trans
                        const std::string& frame, const AgeLimits& limits, ros::Time now,
                        const ShapeOf& shape_of) {
   if (organs.organs().empty()) throw no_organ();
-  const FrameLimit limit = frame_limit(limits);
   ProxyScene scene{frame, {}, {}};
   for (const auto& [name, organ] : organs.organs()) {
     if (is_stale(organ.latest(), now, limits.mesh_sec)) {
@@ -153,14 +133,11 @@ ProxyScene proxy_scene(const OrganRegistry& organs, const TransformBuffer& trans
       throw Rejection(ContactArray::NO_TRANSFORM, reason_of(ContactArray::NO_TRANSFORM),
                       "organ '" + name + "': " + T_organ_proxy.why_not);
     }
-    if (is_old(T_organ_proxy.found->stamp, limit, now)) {
-      throw stale_frame(
-          {oldest_between(transforms, organ.frame(), frame), T_organ_proxy.found->stamp}, limit,
-          now);
-    }
+    check_age(transforms, organ.frame(), {frame}, limits, now);
+    check_age(transforms, frame, {organ.frame()}, limits, now);
     scene.stamps.push_back(T_organ_proxy.found->stamp);
-    scene.organs.push_back(
-        {name, shape_of(organ), organ.latest().topology(), T_organ_proxy.found->value});
+    scene.organs.push_back({name_of_history(organ), shape_of(organ), organ.latest().topology(),
+                            T_organ_proxy.found->value});
     scene.sources.push_back(&organ);
     TissueMotion& motion = scene.motions.emplace_back(motion_of(organ, now));
     const ros::Time stamp = T_organ_proxy.found->stamp;
@@ -174,13 +151,17 @@ ProxyScene proxy_scene(const OrganRegistry& organs, const TransformBuffer& trans
 }
 
 void check_age(const TransformBuffer& transforms, const std::string& frame,
-               const TransformBuffer::Frames& tool_frames, ros::Time stamp, const AgeLimits& limits,
-               ros::Time now) {
+               const TransformBuffer::Frames& others, const AgeLimits& limits, ros::Time now) {
   const FrameLimit limit = frame_limit(limits);
-  // No transform behind the pose is older than the pose, so all are recent if the pose is.
-  if (!is_old(stamp, limit, now)) return;
-  const auto oldest = transforms.oldest_transform(frame, tool_frames);
-  if (oldest && is_old(oldest->stamp, limit, now)) throw stale_frame(*oldest, limit, now);
+  if (!(limit.seconds > 0.0)) return;
+  const auto last = transforms.oldest_transform(frame, others);
+  if (!last) return;
+  const double age = now.toSec() - last->received.toSec();
+  if (!(age > limit.seconds)) return;
+  throw Rejection(
+      ContactArray::STALE_MESH, "stale frame",
+      concatenate("the last transform of frame '", last->frame, "' came ", duration_text(age),
+                  " ago; at most ", limit.seconds, " s are allowed (", limit.parameter, ")"));
 }
 
 }  // namespace organ_collision

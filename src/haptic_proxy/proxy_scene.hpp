@@ -70,7 +70,7 @@ struct TissuePush {
 TissuePush tissue_push(const ProxyScene& scene, const std::vector<ProxyOrgan>& before,
                        const ProxyAnswer& answer, bool has_levers);
 
-/// The greatest age of what is known of organs [s of ROS time]. 0 means no limit.
+/// The longest time since something of an organ came [s of ROS time]. 0 means no limit.
 struct AgeLimits {
   double mesh_sec = 0.0;   ///< of their shapes, and of their frames
   double frame_sec = 0.0;  ///< of their frames, unless these are static
@@ -84,16 +84,17 @@ using ShapeOf = std::function<std::shared_ptr<const TriangleMesh>(const Deformab
 
 /// The organs with the shapes that `shape_of` tells, at their latest poses in `frame`. They are
 /// valid as long as the registry does not change. Throws Rejection if there is no organ, if an
-/// organ has no transform to the frame, or if its shape or a transform is older than allowed.
+/// organ has no transform to the frame, or if its shape or a transform came longer ago than
+/// allowed.
 ProxyScene proxy_scene(const OrganRegistry& organs, const TransformBuffer& transforms,
                        const std::string& frame, const AgeLimits& limits, ros::Time now,
                        const ShapeOf& shape_of);
 
-/// Throws Rejection if TF moves the proxy's frame relative to the tool with a transform that is
-/// older than allowed. `tool_frames`: the frames that determine the tool's pose. `stamp`: the stamp
-/// of the latest pose.
+/// Throws Rejection if the last transform of a frame in the chain from `frame` upwards came longer
+/// ago than allowed. The chain ends below the first frame that also carries all of `others`: what
+/// is above moves both sides together. Static transforms have no age. The node's own clock counts,
+/// and not the stamps, because the clocks of senders differ.
 void check_age(const TransformBuffer& transforms, const std::string& frame,
-               const TransformBuffer::Frames& tool_frames, ros::Time stamp, const AgeLimits& limits,
-               ros::Time now);
+               const TransformBuffer::Frames& others, const AgeLimits& limits, ros::Time now);
 
 }  // namespace organ_collision

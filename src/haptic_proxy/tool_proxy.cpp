@@ -93,7 +93,10 @@ std::vector<OrganForce> ToolProxy::forces(const ProxyAnswer& answer, const Proxy
                                           const Vector3d& damping_force) const {
   std::vector<OrganForce> forces =
       proxy_forces(answer, scene.organs, tool_.freedom, parameters_.stiffness, damping_force);
-  for (std::size_t i = 0; i < forces.size(); ++i) forces[i].frame = scene.sources[i]->frame();
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    forces[i].organ = scene.sources[i]->name();
+    forces[i].frame = scene.sources[i]->frame();
+  }
   if (!force_of(forces).allFinite() || !torque_of(forces).allFinite()) {
     throw Rejection(ContactArray::INVALID_REQUEST, "no force",
                     "the force or its torque is not a finite number");

@@ -14,6 +14,7 @@
 #include "organ_collision/ros/names.hpp"
 #include "organ_source.hpp"
 #include "ros/messages/failure_log.hpp"
+#include "ros/messages/senders.hpp"
 #include "ros/messages/text.hpp"
 #include "ros/node/program.hpp"
 
@@ -95,6 +96,7 @@ class OrganMeshAdapter {
   /// An organ, and the numbers of its messages.
   struct Organ {
     OrganSource source;
+    Senders senders = {};
     std::uint64_t received = 0;  ///< messages
     std::uint64_t converted = 0;
     std::chrono::steady_clock::time_point latest = {};  ///< when the last message was converted
@@ -116,10 +118,16 @@ class OrganMeshAdapter {
 
   void subscribe(Organ& organ, const std::string& topic, std::uint32_t queue_size, Take take) {
     const std::string name = node_.resolveName(topic);
-    const boost::function<void(const Event&)> callback = [this, name, take,
+    const Senders::Stream stream =
+        take == &OrganSource::take_surface ? Senders::kMeshes : Senders::kVertices;
+    const boost::function<void(const Event&)> callback = [this, name, take, stream,
                                                           &organ](const Event& event) {
       const auto now = std::chrono::steady_clock::now();
       ++organ.received;
+      if (organ.senders.note(stream, event.getConnectionHeaderPtr(), event.getReceiptTime())
+              .has_restarted) {
+        organ.source.restart();
+      }
       try {
         (organ.source.*take)(*event.getConstMessage(), event.getReceiptTime());
         ++organ.converted;

@@ -73,11 +73,13 @@ void OrganSource::take_surface(const ShapeShifter& message, ros::Time arrival) {
   surface.stamp = stamp_or(arrival, surface.stamp);
   if (surface.empty()) {
     mesh_.reset();
+    has_restarted_ = false;
     callbacks_.mesh(
         message_of<OrganMesh>(parameters_.name, last_topology_, surface.frame, surface.stamp));
   } else {
     surface.frame = frame_or_given(surface.frame);
-    const bool has_known_triangles = mesh_ && surface.vertices.size() == mesh_->vertices().size() &&
+    const bool has_known_triangles = mesh_ && !has_restarted_ &&
+                                     surface.vertices.size() == mesh_->vertices().size() &&
                                      mesh_->has_triangles(surface.triangles);
     if (!has_known_triangles) {
       send_mesh(++last_topology_, std::move(surface));
@@ -100,6 +102,10 @@ void OrganSource::take_vertices(const ShapeShifter& message, ros::Time arrival) 
 
 /// Sends the message before it is checked here, so that the collision node need not wait.
 void OrganSource::send_mesh(std::uint32_t topology, ReceivedSurface&& surface) {
+  if (std::exchange(has_restarted_, false)) {
+    callbacks_.mesh(
+        message_of<OrganMesh>(parameters_.name, topology, surface.frame, surface.stamp));
+  }
   const auto message =
       message_of<OrganMesh>(parameters_.name, topology, surface.frame, surface.stamp);
   message->vertices = std::move(surface.vertices);
@@ -121,6 +127,9 @@ void OrganSource::send_vertices(const std::string& frame, ros::Time stamp,
   if (vertices.size() != mesh_->vertices().size()) {
     throw MessageError("wrong number of vertices", named, "; must be as many as its mesh has, ",
                        mesh_->vertex_count());
+  }
+  if (has_restarted_) {
+    return send_mesh(++last_topology_, {frame, stamp, std::move(vertices), mesh()->triangles});
   }
   const auto message = message_of<OrganVertices>(parameters_.name, mesh_->topology(), frame, stamp);
   message->vertices = std::move(vertices);

@@ -48,6 +48,11 @@ class OrganSource {
   /// MessageError also if there is no mesh, or if the mesh has another number of vertices.
   void take_vertices(const topic_tools::ShapeShifter& message, ros::Time arrival);
 
+  /// To be called before the first message of a sender that has restarted. Its first shape replaces
+  /// the organ: it is sent as a mesh with the next number, after a removal, so that the collision
+  /// node forgets the organ's history.
+  void restart() { has_restarted_ = mesh_.has_value(); }
+
   /// The last legal mesh with the last legal vertices; null if there is none.
   OrganMeshPtr mesh() const;
 
@@ -62,6 +67,7 @@ class OrganSource {
   Callbacks callbacks_;
   MarkerReader marker_reader_;
   bool has_warned_ = false;
+  bool has_restarted_ = false;  ///< the sender, since the last shape was sent
 
   std::optional<TriangleMesh> mesh_;  ///< shares the vertices of the message that was sent
   std::string frame_;                 ///< the frame of mesh_

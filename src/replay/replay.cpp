@@ -43,11 +43,11 @@ Replay::Replay(const NodeParameters& parameters, const std::vector<Tool>& tools,
     pipeline_.inbox.intake.take_mesh(mesh, instance.getConnectionHeader());
     pipeline_.apply_organ_messages(steady(now_));
   });
-  handle<OrganVertices>(node + "/" + names::kOrganVertices,
-                        [this](const auto& vertices, const auto&) {
-                          pipeline_.inbox.intake.take_vertices(vertices);
-                          pipeline_.apply_organ_messages(steady(now_));
-                        });
+  handle<OrganVertices>(
+      node + "/" + names::kOrganVertices, [this](const auto& vertices, const auto& instance) {
+        pipeline_.inbox.intake.take_vertices(vertices, instance.getConnectionHeader());
+        pipeline_.apply_organ_messages(steady(now_));
+      });
   for (const bool resting : {false, true}) {
     handle<tf2_msgs::TFMessage>(resting ? "/tf_static" : "/tf",
                                 [this, resting](const auto& transforms, const auto& instance) {

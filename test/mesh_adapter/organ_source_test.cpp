@@ -118,7 +118,10 @@ class OrganSourceTest : public testing::Test {
   OrganSource source(const std::string& frame) {
     return {{"organ", "topic", frame, "points"},
             kLastTopology,
-            {[this](const OrganMeshPtr& message) { mesh_ = message; },
+            {[this](const OrganMeshPtr& message) {
+               removals_ += message->vertices.empty() ? 1 : 0;
+               mesh_ = message;
+             },
              [this](const OrganVerticesPtr& message) { vertices_ = message; }}};
   }
 
@@ -127,6 +130,7 @@ class OrganSourceTest : public testing::Test {
   ros::Time stamp_{100.0};
   OrganMeshPtr mesh_;
   OrganVerticesPtr vertices_;
+  int removals_ = 0;  ///< since the start
   OrganSource source_ = source("");
 };
 
@@ -151,6 +155,30 @@ TEST_F(OrganSourceTest, OnlyNewTrianglesAreAMeshWithTheNextTopology) {
   EXPECT_EQ(source_.mesh(), nullptr);
   send(larger);
   expect_mesh(mesh_, 4, larger);
+}
+
+TEST_F(OrganSourceTest, TheFirstShapeOfARestartedSenderReplacesTheOrgan) {
+  source_.restart();
+  send(grid_);
+  expect_mesh(mesh_, 1, grid_);
+  EXPECT_EQ(removals_, 0) << "there was nothing before";
+  source_.restart();
+  send(moved_);
+  expect_mesh(mesh_, 2, moved_);
+  EXPECT_EQ(removals_, 1);
+  send(grid_);
+  expect(vertices_, 2, grid_.vertices);
+  source_.restart();
+  mesh_.reset();
+  source_.take_vertices(received(cloud(moved_.vertices, "liver")), kArrival);
+  expect_mesh(mesh_, 3, moved_);
+  EXPECT_EQ(removals_, 2);
+  send_vertices(grid_.vertices);
+  expect(vertices_, 3, grid_.vertices);
+  source_.restart();
+  send({});
+  send(grid_);
+  EXPECT_EQ(removals_, 3) << "it is removed once";
 }
 
 TEST_F(OrganSourceTest, VerticesNeedAMeshOfAsMany) {

@@ -1,25 +1,40 @@
 #!/usr/bin/python3
 """What the node says about the organs that it has: in the log, on /diagnostics and by list_organs. How an organ is
-removed, and when a mesh is a new organ. Refusals are in test/ros/organs."""
+removed, when a mesh is a new organ, and when a simulator that starts again begins a new history. Refusals are in
+test/ros/organs."""
 
 import itertools
 import re
+import signal
+import subprocess
 import sys
 
-from organ_collision.msg import ContactArray
+from organ_collision.msg import ContactArray, TouchEvent
 from organ_collision.srv import ListOrgans, RemoveOrgan
 import rospy
 from rosgraph_msgs.msg import Log as LogLine
 import rostest
 
 from support import scenes
-from support.contact_case import ContactCase, KeepsContract, xyz
+from support.contact_case import ContactCase, faces_of, KeepsContract, xyz
 from support.node_client import FAR_AWAY, Log, NodeClient, TfSender, wait_until
-from support.tool_over_sheet import at_height
+from support.tool_over_sheet import at_height, SHEET
 
 STATIC, SWEPT, INVALID = ContactArray.STATIC, ContactArray.SWEPT, ContactArray.INVALID_REQUEST
 KIDNEY = scenes.box((0.12, 0.09, 0.06)).moved(lambda v: (v[0] + 0.3, v[1], v[2] - 0.2))
 VOLUME = 0.12 * 0.09 * 0.06  # [m^3]
+BELOW, TOUCHING, ABOVE = -0.1, 0.0, 0.5  # [m] heights of a sheet: below the tool, across it, and beyond its trocar
+
+
+def simulate(organ, height):
+    """A simulator: sends a sheet that rests at this height, at 50 Hz."""
+    rospy.init_node('simulator')  # The test gives it another name.
+    node = NodeClient()
+    sheet = SHEET.moved(lambda v: (v[0], v[1], height))
+    node.bring(organ, sheet, rospy.Time.now())
+    while not rospy.is_shutdown():
+        node.send_vertices(organ, sheet, rospy.Time.now())
+        rospy.rostime.wallsleep(0.02)
 
 
 class OrgansTest(KeepsContract, ContactCase):
@@ -103,20 +118,71 @@ class OrgansTest(KeepsContract, ContactCase):
         self.assertEqual(answer.mode, mode)
         self.assertGreater(len(answer.contacts), 0)
 
+    def start(self, name, height):
+        """Starts a simulator, and waits for the answers about four of its shapes. Returns the process, and the
+        answers since the start."""
+        start = rospy.Time.now()
+        process = subprocess.Popen([sys.executable, __file__, '--simulate', self.organ, str(height), '__name:=' + name])
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        answers = lambda: [answer for answer in self.node.contacts.of(self.organ) if answer.mesh_stamp > start]
+        wait_until(lambda: len(answers()) >= 4, 'answers about the shapes of ' + name)
+        return process, answers()
+
+    def test_a_simulator_that_starts_again(self):
+        """Its first answer is static, so that nothing is touched between its shape and that of the dead process. That
+        it is a new process shows also if it has the old name, or if the old process had no time to say that it ends."""
+        touches = Log('/organ_collision/touches', TouchEvent).wait_for_publisher()
+        told = lambda: [(event.event, event.reason) for event in touches.select(lambda e: e.organ == self.organ)]
+        process, _ = self.start('simulator', BELOW)
+        for name, end, height in (('simulator', signal.SIGKILL, ABOVE), ('simulator', signal.SIGINT, BELOW),
+                                  ('second_simulator', signal.SIGINT, ABOVE),
+                                  ('third_simulator', signal.SIGKILL, BELOW)):
+            process.send_signal(end)
+            process.wait()
+            process, answers = self.start(name, height)
+            self.assertEqual([answer.mode for answer in answers], [STATIC] + [SWEPT] * (len(answers) - 1), name)
+            self.assertEqual([faces for faces in map(faces_of, answers) if faces], [], name)
+            self.assertEqual(told(), [])
+        process.kill()
+        process.wait()
+        process, answers = self.start('third_simulator', TOUCHING)
+        self.assertGreater(len(answers[0].contacts), 0)
+        self.assertEqual({contact.since for contact in answers[-1].contacts}, {answers[0].header.stamp})
+        process.kill()
+        process.wait()
+        self.start('third_simulator', TOUCHING)
+        wait_until(lambda: len(told()) >= 3, told)
+        self.assertEqual(told(), [(TouchEvent.BEGIN, ''), (TouchEvent.END, 'sender restarted'), (TouchEvent.BEGIN, '')])
+
+    def test_two_simulators_of_one_organ(self):
+        log = Log('/rosout', LogLine)
+        _, answers = self.start('left', BELOW)
+        self.start('right', 1.1 * BELOW)
+        warning = "organ '%s' has two senders on organ_vertices, '/" % self.organ
+        wait_until(lambda: log.select(lambda line: line.msg.startswith(warning)),
+                   lambda: [line.msg for line in log.messages])
+        answers = self.node.contacts.of(self.organ)
+        self.assertEqual([answer.mode for answer in answers[1:]], [SWEPT] * (len(answers) - 1))
+
     def test_other_triangles_with_the_same_number(self):
-        """One simulator must raise the number or reset. Over a new connection they are a new organ, while the same
-        triangles are a new shape, whose step begins at the last one."""
+        """One simulator must raise the number or reset. Over a new connection they are a new organ, and the same
+        triangles are that of a sender that has restarted."""
         self.assert_step(self.send(3), STATIC)
         self.assertEqual(self.send(5).status, INVALID)
         self.assert_step(self.send(3), SWEPT)
         self.node.reset()
         self.assert_step(self.send(5), STATIC)
-        for cells, mode in ((3, STATIC), (3, SWEPT)):
+        for cells in (3, 3):
             self.node.close()
             type(self).node = NodeClient()
-            self.assert_step(self.send(cells), mode)
+            self.assert_step(self.send(cells), STATIC)
+            self.assert_step(self.send(cells), SWEPT)
 
 
 if __name__ == '__main__':
+    if sys.argv[1:2] == ['--simulate']:
+        simulate(sys.argv[2], float(sys.argv[3]))
+        sys.exit()
     rospy.init_node('organs_test')
     rostest.rosrun('organ_collision', 'organs', OrgansTest, sys.argv)

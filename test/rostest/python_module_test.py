@@ -105,7 +105,8 @@ class PythonModuleTest(unittest.TestCase):
 
     def test_the_example_prints_contacts_with_a_file_and_with_the_kidney_that_ships(self):
         mesh = roslib.packages.get_pkg_dir('organ_collision') + '/urdf/meshes/jaw.stl'
-        for arguments in ([mesh, '--scale', '5'], []):
+        # The second organ is a kilometre large: each time, the probe begins far from where the last program left it.
+        for arguments in ([mesh, '--scale', '5'], [mesh, '--scale', '50000'], []):
             process = subprocess.Popen([program('own_mesh.py'), *arguments], stdout=subprocess.PIPE, text=True)
             watchdog = threading.Timer(LIMIT, process.kill)
             watchdog.start()

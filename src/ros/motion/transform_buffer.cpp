@@ -116,7 +116,9 @@ void TransformBuffer::judge(Frame& frame, ros::Time stamp) {
 void TransformBuffer::note(Frame& frame, ros::Time stamp) {
   std::deque<ros::Time>& stamps = frame.stamps;
   frame.heard = stamp;
-  if (stamps.empty() || stamp > stamps.back()) frame.received = ros::Time::now();
+  const ros::Time now = ros::Time::now();
+  frame.received = now.isZero() ? stamp : now;  // Before the first /clock, only the stamp tells.
+  if (stamps.empty() || stamp > stamps.back()) frame.advanced = frame.received;
   stamps.insert(std::upper_bound(stamps.begin(), stamps.end(), stamp), stamp);
   // In whole nanoseconds, because the arithmetic of ros::Time throws for extreme stamps.
   const std::uint64_t latest = stamps.back().toNSec();
@@ -162,7 +164,7 @@ bool TransformBuffer::goes_on(const std::string& target, const Frames& sources, 
       return seconds_between(stamp, stamps.back()) >= kVelocitySec;
     });
     const ros::Time since = before == stamps.rend() ? stamps.front() : *before;
-    return organ_collision::goes_on(seconds_between(since, stamps.back()), frame->received, now);
+    return organ_collision::goes_on(seconds_between(since, stamps.back()), frame->advanced, now);
   });
 }
 
@@ -214,19 +216,18 @@ void TransformBuffer::set_answered(const std::string& target, const Frames& sour
   }
 }
 
-std::optional<NewestTransform> TransformBuffer::oldest_transform(const std::string& frame,
-                                                                 const Frames& others) const {
+std::optional<LastTransform> TransformBuffer::oldest_transform(const std::string& frame,
+                                                               const Frames& others) const {
   std::vector<Nodes> above_others;
   for (const std::string& other : others) above_others.push_back(upward(other, 1));
-  std::optional<NewestTransform> oldest;
+  std::optional<LastTransform> oldest;
   for (const Frame* const above : upward(frame, 1)) {
     const bool carries_all =
         std::all_of(above_others.begin(), above_others.end(),
                     [&](const Nodes& frames) { return contains(frames, above); });
     if (carries_all) break;
     if (above->stamps.empty()) continue;
-    const ros::Time stamp = above->stamps.back();
-    if (!oldest || stamp < oldest->stamp) oldest = {above->name, stamp};
+    if (!oldest || above->received < oldest->received) oldest = {above->name, above->received};
   }
   return oldest;
 }

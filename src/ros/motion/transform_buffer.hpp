@@ -19,10 +19,10 @@ namespace organ_collision {
 /// transforms, so that for frames that come more rarely, the last two transforms count.
 inline constexpr double kVelocitySec = 0.01;
 
-/// The name of a frame, and the stamp of the newest transform to its parent.
-struct NewestTransform {
+/// The name of a frame, and when the last transform to its parent came, by the node's own clock.
+struct LastTransform {
   std::string frame;
-  ros::Time stamp;
+  ros::Time received;
 };
 
 /// TF's buffer with a record of the stamps of each frame's transforms, because tf2 does not tell
@@ -88,11 +88,11 @@ class TransformBuffer : public tf2::BufferCore {
   /// How many transforms came late, after poses at or past their stamp had already been used.
   std::size_t late() const { return late_; }
 
-  /// The frame in the chain from `frame` upwards whose newest transform is the oldest. Frames with
-  /// only static transforms are left out. The chain ends below the first frame that also carries
-  /// all of `others`, because from there on, both sides move together. Empty if no frame is left.
-  std::optional<NewestTransform> oldest_transform(const std::string& frame,
-                                                  const Frames& others) const;
+  /// The frame in the chain from `frame` upwards whose last transform came first. Frames with only
+  /// static transforms are left out. The chain ends below the first frame that also carries all of
+  /// `others`, because from there on, both sides move together. Empty if no frame is left.
+  std::optional<LastTransform> oldest_transform(const std::string& frame,
+                                                const Frames& others) const;
 
  private:
   struct Frame;
@@ -103,7 +103,8 @@ class TransformBuffer : public tf2::BufferCore {
     Nodes parents = {};                 ///< recent parents, the latest at the end
     std::deque<ros::Time> stamps = {};  ///< stamps of recent transforms, in rising order
     ros::Time heard = {};               ///< the stamp that came last
-    ros::Time received = {};            ///< when the largest stamp came
+    ros::Time received = {};            ///< when it came, by the node's own clock
+    ros::Time advanced = {};            ///< when the largest stamp came, by the node's own clock
     ros::Time forgotten = {};           ///< the latest stamp that was forgotten
     ros::Time disproved = {};           ///< a stamp that was disproved (see believed_until())
     ros::Time answered = {};            ///< poses were used up to this stamp

@@ -101,7 +101,7 @@ void CollisionNode::publish(const ToolStep& step) {
   }
   if (answer.status == ContactArray::OK) counters_.query_times.add(step.query_sec);
   contacts_.publish(step.answer);
-  touches_.follow(answer);
+  touches_.follow(answer, core_.loop().now());
   ++counters_.published;
   counters_.contacts.count();
   markers_.add(step);
@@ -123,9 +123,11 @@ void CollisionNode::watch_ends(const ToolStep& step) {
 
 /// Counts an accepted shape. If the message brought no shape, publishes for each tool why.
 void CollisionNode::report(const OrganUpdate& update) {
-  if (update.change == OrganChange::kRemoved || update.change == OrganChange::kOrgan) {
+  const bool is_gone =
+      update.change == OrganChange::kRemoved || update.change == OrganChange::kOrgan;
+  if (is_gone || update.change == OrganChange::kSender) {
     touches_.forget([&](const auto& pair) { return pair.first == update.message.organ(); },
-                    "organ removed");
+                    is_gone ? "organ removed" : "sender restarted");
   }
   if (update.status == ContactArray::OK) return counters_.meshes.count();
   publish_failure(update.message.organ(), update.message.header(), update.status, update.why_not);
@@ -163,7 +165,7 @@ void CollisionNode::publish_failure(const std::string& organ, const std_msgs::He
     const auto answer = boost::make_shared<ContactArray>(
         failed_answer(organ, tool.parameters, header, status, message));
     contacts_.publish(answer);
-    touches_.follow(*answer);
+    touches_.follow(*answer, core_.loop().now());
     ++counters_.published;
   }
 }

@@ -4,6 +4,7 @@
 #include <ros/time.h>
 
 #include <chrono>
+#include <cstdint>
 #include <future>
 #include <map>
 #include <memory>
@@ -65,7 +66,7 @@ class OrganSurface {
 struct OrganShape {
   std::shared_ptr<const TriangleMesh> mesh;  ///< null: no shape
   ros::Time stamp;                           ///< the stamp of the message; zero: it has none
-  ros::Time received;
+  ros::Time received;                        ///< when the message was applied, by the node's clock
   std::shared_ptr<OrganSurface> surface = {};  ///< what is known of the triangles; null: no shape
   /// The shape before, with the same triangles. Null if this one is the first with its triangles,
   /// and after forget_before().
@@ -89,12 +90,11 @@ struct OrganShape {
     return surface->is_found() ? &surface->topology() : nullptr;
   }
 
-  /// [s] The time since the stamp. If the message had no stamp, or its stamp was in the future when
-  /// the message came, the time since the message came. (Before the first /clock, messages come at
-  /// time zero, and every stamp counts.)
+  /// [s] The time since the shape came, by the node's own clock. The stamp does not count: the
+  /// sender's clock may differ. (Before the first /clock, messages come at time zero. Of these, the
+  /// stamp counts.)
   double age(ros::Time now) const {
-    const bool is_of_future = received < stamp && !received.isZero();
-    return now.toSec() - (stamp.isZero() || is_of_future ? received : stamp).toSec();
+    return now.toSec() - (received.isZero() ? stamp : received).toSec();
   }
 };
 
@@ -127,6 +127,14 @@ class DeformableOrgan {
     latest_.forget_before();
     begins_anew_ = true;
   }
+  /// To be called when the latest shape has nothing to do with the shapes before, because the
+  /// organ's sender has restarted.
+  void begin_history() {
+    latest_.forget_before();
+    ++histories_;
+  }
+  /// How often begin_history() was called.
+  std::uint32_t histories() const { return histories_; }
   /// To be called when the clock has jumped back to `now`, or has begun. If the latest shape was
   /// received later, or before the clock began, that shape counts as received at `now`.
   void receive_anew(ros::Time now);
@@ -136,6 +144,7 @@ class DeformableOrgan {
   std::string frame_;
   OrganShape latest_;
   bool begins_anew_ = false;  ///< the next shape cannot be compared with the latest one
+  std::uint32_t histories_ = 0;
   std::vector<std::shared_ptr<TriangleMesh>> shapes_;  ///< all with the present triangles
 };
 

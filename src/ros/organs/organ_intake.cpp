@@ -58,7 +58,7 @@ void OrganIntake::subscribe(ros::NodeHandle private_node) {
           [this](const auto& event) {
             const OrganVerticesConstPtr& message = event.getConstMessage();
             counts_.lost += lost_before(vertices_, event.getPublisherName(), message->header.seq);
-            take_vertices(message);
+            take_vertices(message, event.getConnectionHeaderPtr());
           },
           rejected_)};
   services_ = {private_node.advertiseService(names::kRemoveOrgan, &OrganIntake::on_remove, this),
@@ -70,8 +70,9 @@ void OrganIntake::take_mesh(const OrganMeshConstPtr& message, const Connection& 
   add({message, connection});
 }
 
-void OrganIntake::take_vertices(const OrganVerticesConstPtr& message) {
-  add({nullptr, {}, {}, message});
+void OrganIntake::take_vertices(const OrganVerticesConstPtr& message,
+                                const Connection& connection) {
+  add({nullptr, connection, {}, message});
 }
 
 void OrganIntake::add(OrganMessage message) {
@@ -156,7 +157,11 @@ OrganUpdate OrganIntake::apply(OrganMessage waiting) {
   };
   try {
     update.change = message.mesh ? organs_.apply(message.mesh, message.connection, now, built)
-                                 : organs_.apply(message.vertices, now);
+                                 : organs_.apply(message.vertices, message.connection, now);
+    if (update.change == OrganChange::kSender) {
+      ROS_INFO("organ '%s': its sender has restarted, so a new history begins",
+               message.organ().c_str());
+    }
     if (is_new) inspect(organs_.at(message.organ()));
     if (update.change != OrganChange::kRemoved) {
       ++counts_.applied;

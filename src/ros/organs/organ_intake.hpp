@@ -23,7 +23,7 @@ namespace organ_collision {
 /// A message about one organ: either `mesh` or `vertices` is set, and the other one is null.
 struct OrganMessage {
   OrganMeshConstPtr mesh = {};
-  Connection connection = {};            ///< the connection over which the mesh came
+  Connection connection = {};            ///< over which the message came
   std::future<TriangleMesh> built = {};  ///< valid only if another thread builds the mesh
   OrganVerticesConstPtr vertices = {};
 
@@ -84,9 +84,9 @@ class OrganIntake {
   /// Subscribes to the topics and advertises the services. The constructor must have got threads.
   void subscribe(ros::NodeHandle private_node);
 
-  /// Takes a message of a topic. `connection`: over which the mesh came.
+  /// Takes a message of a topic. `connection`: over which it came.
   void take_mesh(const OrganMeshConstPtr& message, const Connection& connection = {});
-  void take_vertices(const OrganVerticesConstPtr& message);
+  void take_vertices(const OrganVerticesConstPtr& message, const Connection& connection = {});
 
   /// Applies the next message that need not wait for a mesh. Returns std::nullopt if there is none.
   /// A refused message is added to the rejected ones, except for vertices without a mesh in the

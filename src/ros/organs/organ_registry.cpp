@@ -1,9 +1,11 @@
 #include "organ_registry.hpp"
 
 #include <organ_collision/ContactArray.h>
+#include <ros/console.h>
 
 #include <iterator>
 
+#include "organ_collision/ros/names.hpp"
 #include "ros/messages/text.hpp"
 
 namespace organ_collision {
@@ -64,6 +66,7 @@ OrganChange OrganRegistry::apply(const OrganMeshConstPtr& pointer, const Connect
   if (is_removal(message)) {
     organs_.erase(message.organ);
     connections_.erase(message.organ);
+    senders_.erase(message.organ);
     refusals_[message.organ].clear();
     return OrganChange::kRemoved;
   }
@@ -75,7 +78,10 @@ OrganChange OrganRegistry::apply(const OrganMeshConstPtr& pointer, const Connect
     }
     check_name("header.frame_id", frame);
     check_stamp(message.header.stamp, now, named);
-    const OrganChange change = set_shape(pointer, connection, frame, now, built);
+    OrganChange change = set_shape(pointer, connection, frame, now, built);
+    if (note_sender(organs_.at(message.organ), Senders::kMeshes, connection, now)) {
+      change = OrganChange::kSender;
+    }
     std::set<Connection>& known = connections_[message.organ];
     for (auto entry = known.begin(); entry != known.end();) {
       entry = entry->expired() ? known.erase(entry) : std::next(entry);
@@ -118,7 +124,8 @@ OrganChange OrganRegistry::set_shape(const OrganMeshConstPtr& pointer, const Con
   return change == OrganChange::kShape ? OrganChange::kFrame : change;
 }
 
-OrganChange OrganRegistry::apply(const OrganVerticesConstPtr& pointer, ros::Time now) {
+OrganChange OrganRegistry::apply(const OrganVerticesConstPtr& pointer, const Connection& connection,
+                                 ros::Time now) {
   const OrganVertices& message = *pointer;
   if (message.organ.empty()) refuse("empty name", "organ vertices without a name in `organ`");
   check_name("organ", message.organ);
@@ -143,7 +150,24 @@ OrganChange OrganRegistry::apply(const OrganVerticesConstPtr& pointer, ros::Time
   } catch (const std::exception& error) {
     throw rejection_of(error, named);
   }
-  return OrganChange::kShape;
+  return note_sender(organ, Senders::kVertices, connection, now) ? OrganChange::kSender
+                                                                 : OrganChange::kShape;
+}
+
+/// Notes over which connection the organ's latest shape came. If its sender has restarted, the
+/// organ begins a new history, and true is returned.
+bool OrganRegistry::note_sender(DeformableOrgan& organ, Senders::Stream stream,
+                                const Connection& connection, ros::Time now) {
+  const bool moves = organ.latest().before != nullptr;
+  const Senders::Change change = senders_[organ.name()].note(stream, connection, now, moves);
+  if (!change.other.empty()) {
+    ROS_WARN_THROTTLE(5.0, "organ '%s' has two senders on %s, '%s' and '%s': stop one of them",
+                      organ.name().c_str(),
+                      stream == Senders::kMeshes ? names::kOrganMesh : names::kOrganVertices,
+                      change.other.c_str(), caller_of(connection).c_str());
+  }
+  if (change.has_restarted) organ.begin_history();
+  return change.has_restarted;
 }
 
 const DeformableOrgan& OrganRegistry::at(const std::string& name) const {

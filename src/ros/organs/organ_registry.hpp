@@ -2,10 +2,8 @@
 
 #include <organ_collision/OrganMesh.h>
 #include <organ_collision/OrganVertices.h>
-#include <ros/datatypes.h>
 #include <ros/time.h>
 
-#include <boost/weak_ptr.hpp>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -15,21 +13,17 @@
 #include "deformable_organ.hpp"
 #include "ros/messages/conversions.hpp"
 #include "ros/messages/failure_log.hpp"
+#include "ros/messages/senders.hpp"
 
 namespace organ_collision {
 
-/// The connection over which a message came from a publisher, identified by its header: roscpp
-/// makes one for each connection, and keeps it while the connection is open. A restarted publisher
-/// has a new connection. Connections are compared by the owner of the header, and not by its
-/// address, which a later header may get again.
-using Connection = boost::weak_ptr<const ros::M_string>;
-
-/// What a message changed. After kFrame and kOrgan, the new shape cannot be compared with earlier
-/// shapes of this organ.
+/// What a message changed. After kFrame, kOrgan and kSender, the new shape cannot be compared with
+/// earlier shapes of this organ.
 enum class OrganChange {
   kShape,   ///< the organ has a new shape
   kFrame,   ///< the organ has a new shape in another frame
   kOrgan,   ///< another organ has taken the name
+  kSender,  ///< the organ's sender has restarted; triangles and frame may also be new
   kRemoved  ///< the organ is gone
 };
 
@@ -53,12 +47,20 @@ class OrganRegistry {
   /// A mesh may have other triangles under the topology number that the organ already has. If the
   /// mesh came over a connection that is new to this organ, for example from a restarted simulator,
   /// it is another organ. Over a known connection, such a mesh is refused.
+  ///
+  /// A sender has restarted if a shape comes over another connection than the last shape of the
+  /// same organ and type of message, and that connection is closed. If that connection is still
+  /// open, a warning says that the organ has two senders.
   OrganChange apply(const OrganMeshConstPtr& message, const Connection& connection, ros::Time now,
                     const std::function<TriangleMesh()>& built);
   OrganChange apply(const OrganMeshConstPtr& message, ros::Time now) {
     return apply(message, {}, now, [&] { return build(message); });
   }
-  OrganChange apply(const OrganVerticesConstPtr& message, ros::Time now);
+  OrganChange apply(const OrganVerticesConstPtr& message, const Connection& connection,
+                    ros::Time now);
+  OrganChange apply(const OrganVerticesConstPtr& message, ros::Time now) {
+    return apply(message, {}, now);
+  }
   /// Whether `apply` would call `built` for this message.
   bool is_new(const OrganMesh& message, const Connection& connection) const;
 
@@ -81,12 +83,15 @@ class OrganRegistry {
   OrganChange set_shape(const OrganMeshConstPtr& message, const Connection& connection,
                         const std::string& frame, ros::Time now,
                         const std::function<TriangleMesh()>& built);
+  bool note_sender(DeformableOrgan& organ, Senders::Stream stream, const Connection& connection,
+                   ros::Time now);
   void check_stamp(ros::Time stamp, ros::Time now, const std::string& named) const;
 
   MeshLimits limits_;
   double max_ahead_sec_;
   std::map<std::string, DeformableOrgan> organs_;
   std::map<std::string, std::set<Connection>> connections_;  ///< each organ's mesh connections
+  std::map<std::string, Senders> senders_;                   ///< by organ
   /// For each organ, why its last mesh was refused; empty if the organ was removed. An accepted
   /// mesh removes the entry.
   std::map<std::string, std::string> refusals_;

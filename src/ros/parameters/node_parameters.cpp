@@ -235,8 +235,10 @@ ParameterTable table_of(NodeParameters& p) {
            "[s] how long a new shape waits for its transforms; simulated time if use_sim_time is "
            "set")
       .live();
-  t.number("mesh_timeout_sec", p.mesh_timeout_sec, {0.0, 1e6},
-           "[s] if the mesh is older than this, the answer is STALE_MESH. 0: never")
+  t.number(
+       "mesh_timeout_sec", p.mesh_timeout_sec, {0.0, 1e6},
+       "[s] if the last shape of the organ came longer ago than this, the answer is STALE_MESH. 0: "
+       "never")
       .live();
   add_limits(t, p);
   t.number("max_batch", p.max_batch, {1, 1'000'000},

@@ -60,7 +60,7 @@ struct MarkerSettings {
 struct OrganNodeParameters {
   std::vector<ToolParameters> tools;
   PickerSettings picker;
-  double mesh_timeout_sec = 0.0;  ///< age at which a mesh is stale; 0: never
+  double mesh_timeout_sec = 0.0;  ///< time since the last shape, from which it is stale; 0: never
   double max_ahead_sec = kMaxAheadDefault;
   int max_faces = 2'000'000;
   double diagnostic_period_sec = 1.0;  ///< period in wall time

@@ -6,8 +6,8 @@
 namespace organ_collision {
 namespace {
 
-/// [s] Answers that fail for longer end a touch.
-constexpr double kLongestFailure = 1.0;
+/// Answers that fail for longer end a touch.
+constexpr std::chrono::seconds kLongestFailure(1);
 
 /// An event at a contact, without its kind.
 TouchEvent event_at(const ContactArray& answer, const Contact& contact) {
@@ -34,14 +34,14 @@ bool began_after(const Contact& a, const Contact& b) {
 
 }  // namespace
 
-void TouchTracker::follow(const ContactArray& answer) {
+void TouchTracker::follow(const ContactArray& answer, Time now) {
   const OrganAndTool key{answer.organ, answer.tool};
   if (answer.status != ContactArray::OK) {
-    if (const auto known = pairs_.find(key); known != pairs_.end()) fail(answer, known->second);
+    if (const auto known = pairs_.find(key); known != pairs_.end()) fail(known->second, now);
     return;
   }
   Pair& pair = pairs_[key];
-  pair.failing = {};
+  pair.failing.reset();
   pair.last = answer.header.stamp;
   const std::vector<Contact>& contacts = answer.contacts;
   if (!pair.is_touched && contacts.empty()) return;
@@ -62,10 +62,10 @@ void TouchTracker::follow(const ContactArray& answer) {
   if (std::none_of(contacts.begin(), contacts.end(), is_touching)) end(pair, pair.last, {});
 }
 
-void TouchTracker::fail(const ContactArray& answer, Pair& pair) {
-  if (pair.failing.isZero()) pair.failing = answer.header.stamp;
-  const double failed_sec = answer.header.stamp.toSec() - pair.failing.toSec();
-  if (pair.is_touched && failed_sec > kLongestFailure) end(pair, pair.last, "no answer");
+void TouchTracker::fail(Pair& pair, Time now) {
+  if (!pair.failing) pair.failing = now;
+  const bool is_long = now - *pair.failing > kLongestFailure;
+  if (pair.is_touched && is_long) end(pair, pair.last, "no answer");
 }
 
 /// A contact that goes on although its touch has ended began before the step. The new touch begins

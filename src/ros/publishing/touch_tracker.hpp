@@ -3,9 +3,11 @@
 #include <organ_collision/ContactArray.h>
 #include <organ_collision/TouchEvent.h>
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <unordered_set>
 #include <utility>
@@ -19,14 +21,16 @@ namespace organ_collision {
 /// ends a touch. Answers that are not OK change nothing, unless they fail for longer than 1 s.
 class TouchTracker {
  public:
+  using Time = std::chrono::steady_clock::time_point;        ///< of the node's own clock
   using OrganAndTool = std::pair<std::string, std::string>;  ///< their names
   using Publish = std::function<void(const TouchEvent&)>;
 
   /// `publish` gets the events, in order.
   explicit TouchTracker(Publish publish) : publish_(std::move(publish)) {}
 
-  /// Takes the next answer about an organ and a tool.
-  void follow(const ContactArray& answer);
+  /// Takes the next answer about an organ and a tool, which is given at `now`. How long answers
+  /// fail is measured with `now`, because the stamp of a refused message may be any number.
+  void follow(const ContactArray& answer, Time now);
   /// Ends the touches of all tools and organs, with the stamp of their last answer.
   void end_all(const std::string& reason);
   /// Ends the touches of those pairs of organ and tool that `is_gone`, and forgets the pairs.
@@ -38,16 +42,16 @@ class TouchTracker {
   struct Pair {
     std::uint32_t count = 0;  ///< of touches that have begun
     bool is_touched = false;
-    ros::Time began, last;   ///< when the touch began; the stamp of the last answer that was OK
-    ros::Time failing = {};  ///< the stamp of the first failed answer since then; zero: none
-    TouchEvent place;        ///< the place that was touched last
-    double deepest = 0.0;    ///< [m]
+    ros::Time began, last;  ///< when the touch began; the stamp of the last answer that was OK
+    std::optional<Time> failing = {};  ///< when the first failed answer since then was given
+    TouchEvent place;                  ///< the place that was touched last
+    double deepest = 0.0;              ///< [m]
     std::uint32_t topology = 0;
     std::unordered_set<std::uint32_t> faces;  ///< touched faces of the present triangles
     std::size_t earlier_faces = 0;            ///< number of touched faces of earlier triangles
   };
 
-  void fail(const ContactArray& answer, Pair& pair);
+  void fail(Pair& pair, Time now);
   void begin(const ContactArray& answer, Pair& pair);
   void end(Pair& pair, ros::Time stamp, const std::string& reason);
 

@@ -33,6 +33,14 @@ void check_ends(const ToolMotion& motion, QueryMode mode) {
   check_point("previous_tip", motion.previous_tip);
 }
 
+/// Checks the motion of a shaft that belongs to no tool of the node.
+void check_shaft(const ToolMotion& motion, QueryMode mode) {
+  if (!std::isfinite(motion.radius) || !(motion.radius > 0.0)) {
+    refuse("motion.radius is ", motion.radius, " m; must be positive and finite");
+  }
+  check_ends(motion, mode);
+}
+
 void check_shaft_of(const Tool& tool, const ToolMotion* motion, QueryMode mode) {
   const ToolParameters& parameters = tool.parameters;
   if (!parameters.has_shaft()) {
@@ -304,13 +312,6 @@ void set_subject(const QuerySnapshot& snapshot, bool organ_rests, CollisionReque
   if (!snapshot.tool) return;
   collision.radius = snapshot.tool->parameters.radius;
   collision.links = &snapshot.tool->links;
-}
-
-void check_shaft(const ToolMotion& motion, QueryMode mode) {
-  if (!std::isfinite(motion.radius) || !(motion.radius > 0.0)) {
-    refuse("motion.radius is ", motion.radius, " m; must be positive and finite");
-  }
-  check_ends(motion, mode);
 }
 
 void check_lists(const QueryCollisionBatch::Request& batch, const std::optional<Tool>& tool) {

@@ -80,9 +80,6 @@ struct GivenMotion {
   const LinkMotion* links;  ///< null: not given
 };
 
-/// Checks the motion of a shaft that belongs to no tool of the node.
-void check_shaft(const ToolMotion& motion, QueryMode mode);
-
 /// Checks that a batch gives motions only for what the tool has: shaft, links or both. If it has
 /// both, the lists must be equally long.
 void check_lists(const QueryCollisionBatch::Request& batch, const std::optional<Tool>& tool);

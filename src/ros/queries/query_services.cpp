@@ -123,7 +123,6 @@ void QueryServices::answer_one(const QueryCollision::Request& request, ContactAr
     refuse("motion is set, and tool '", request.tool,
            "' moves as in TF; leave motion empty, or ask by query_batch");
   }
-  if (!is_of_tool) check_shaft(request.motion, collision.mode);
   QuerySnapshot snapshot = snapshot_of(request, in_tf, answer);
 
   set_subject(snapshot, request.organ_rests != 0, collision);

@@ -132,8 +132,8 @@ bool is_stale(const OrganShape& shape, ros::Time now, double timeout_sec) {
 
 std::string stale_message(const std::string& organ, const OrganShape& shape, ros::Time now,
                           double timeout_sec) {
-  return concatenate("mesh of organ '", organ, "' is ", shape.age(now), " s old; at most ",
-                     timeout_sec, " s are allowed (mesh_timeout_sec)");
+  return concatenate("the last shape of organ '", organ, "' came ", duration_text(shape.age(now)),
+                     " ago; at most ", timeout_sec, " s are allowed (mesh_timeout_sec)");
 }
 
 Contact to_message(const FaceContact& contact) {

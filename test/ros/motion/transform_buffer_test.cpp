@@ -166,17 +166,22 @@ TEST_F(TransformBufferTest, ALoopAmongManyFramesIsToldInAShortMessage) {
   EXPECT_NE(lookup.why_not.find("from a to liver"), std::string::npos) << lookup.why_not;
 }
 
+/// The clocks of the senders differ from the node's.
 TEST_F(TransformBufferTest, TheOldestTransformIsBelowTheFirstFrameThatCarriesBoth) {
-  send("world", "room", 1.0);
-  send("room", "table", 7.0);
-  send("table", "patient", 3.0);
-  send("table", "patient", 6.0);
+  const auto send_at = [this](double now, const char* parent, const char* child) {
+    ros::Time::setNow(ros::Time(now));
+    send(parent, child, 9.9 - now);
+  };
+  send_at(1.0, "world", "room");
+  send_at(2.0, "room", "arm");
+  send_at(3.0, "table", "patient");
+  send_at(6.0, "table", "patient");
+  send_at(7.0, "room", "table");
   rest("patient", "liver");
-  send("room", "arm", 2.0);
   rest("patient", "trocar");
   const auto oldest = [&](const std::string& frame, const std::vector<std::string>& others) {
     const auto found = buffer_.oldest_transform(frame, others);
-    return found ? found->frame + std::to_string(static_cast<int>(found->stamp.toSec())) : "none";
+    return found ? found->frame + std::to_string(found->received.sec) : "none";
   };
   const struct {
     const char* frame;
@@ -188,6 +193,6 @@ TEST_F(TransformBufferTest, TheOldestTransformIsBelowTheFirstFrameThatCarriesBot
               {"liver", {"liver"}, "none"},   {"liver", {"nowhere"}, "room1"},
               {"nowhere", {"liver"}, "none"}};
   for (const auto& row : rows) EXPECT_EQ(oldest(row.frame, row.others), row.oldest) << row.frame;
-  send("arm", "patient", 8.0);  // It is handed over.
+  send_at(8.0, "arm", "patient");  // It is handed over.
   EXPECT_EQ(oldest("liver", {"room"}), "arm2");
 }

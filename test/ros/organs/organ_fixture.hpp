@@ -78,12 +78,15 @@ inline OrganVertices vertices(float z, std::uint32_t topology = 1) {
 
 class OrganRegistryTest : public testing::Test {
  protected:
+  OrganRegistryTest() { ros::Time::init(); }  // Warnings have a time.
+
   OrganChange apply(const OrganMesh& message, ros::Time now, const Connection& connection = {}) {
     const auto pointer = boost::make_shared<const OrganMesh>(message);
     return store_.apply(pointer, connection, now, [&] { return store_.build(pointer); });
   }
-  OrganChange apply(const OrganVertices& message, ros::Time now, const Connection& = {}) {
-    return store_.apply(boost::make_shared<const OrganVertices>(message), now);
+  OrganChange apply(const OrganVertices& message, ros::Time now,
+                    const Connection& connection = {}) {
+    return store_.apply(boost::make_shared<const OrganVertices>(message), connection, now);
   }
 
   /// Expects that `message` is refused with this status and reason, and that the liver stays as it
@@ -123,8 +126,8 @@ class OrganRegistryTest : public testing::Test {
   std::string why(const std::string& organ) { return rejection_of(organ).what(); }
 
   /// A header such as roscpp makes for each connection.
-  static ros::M_stringPtr header() {
-    return ros::M_stringPtr(new ros::M_string{{"callerid", "/simulator"}});
+  static ros::M_stringPtr header(const std::string& sender = "/simulator") {
+    return ros::M_stringPtr(new ros::M_string{{"callerid", sender}});
   }
 
   const ros::M_stringPtr first_ = header();

@@ -5,7 +5,10 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
 #include <new>
+#include <string>
+#include <vector>
 
 #include "test/ros/organs/organ_fixture.hpp"
 
@@ -198,11 +201,11 @@ TEST_F(OrganRegistryTest, OtherTrianglesOverANewConnectionAreAnotherOrgan) {
   // Messages that still arrive over the old connection do not displace the new organ.
   expect_refused(mesh(), invalid, same, {}, first_);
   expect_refused(more, invalid, same, {}, second_);
-  EXPECT_EQ(apply(more, ros::Time(10), header()), OrganChange::kOrgan);
-  const ros::M_stringPtr third = header();  // The same triangles count as vertices.
-  EXPECT_EQ(apply(more, ros::Time(11), third), OrganChange::kShape);
+  const ros::M_stringPtr third = header(), fourth = header();
+  EXPECT_EQ(apply(more, ros::Time(10), third), OrganChange::kOrgan);
+  EXPECT_EQ(apply(more, ros::Time(10.1), fourth), OrganChange::kShape) << "they count as vertices";
   EXPECT_TRUE(store_.at("liver").latest().before);
-  expect_refused(other, invalid, same, {}, third);
+  expect_refused(other, invalid, same, {}, fourth);
 }
 
 TEST_F(OrganRegistryTest, ANewConnectionIsNotTakenForAClosedOneAtItsAddress) {
@@ -219,4 +222,94 @@ TEST_F(OrganRegistryTest, ANewConnectionIsNotTakenForAClosedOneAtItsAddress) {
     EXPECT_TRUE(store_.is_new(other, opened));
   }
   EXPECT_GT(at_the_same_address, 0) << "this run of the test has shown nothing";
+}
+
+// A connection that is closed belongs to a sender that is gone.
+
+/// Each row sends a mesh or vertices, over the connections that its senders have then.
+TEST_F(OrganRegistryTest, AShapeOfARestartedSenderBeginsANewHistory) {
+  const auto first = OrganChange::kShape, on = OrganChange::kShape, anew = OrganChange::kSender;
+  const struct {
+    const char* restarts;  ///< the senders of meshes (m) and vertices (v) that restart before it
+    char sends;            ///< m: a mesh, v: vertices, c: a mesh with other triangles, as of a cut
+    OrganChange change;
+  } rows[] = {
+      {"", 'm', first},  {"", 'v', on},  // Vertices may come from another node than the mesh.
+      {"mv", 'm', anew}, {"", 'v', on},   {"", 'm', on},     {"", 'v', on},
+      {"mv", 'v', anew}, {"", 'm', on},   {"", 'v', on},  // Its messages overtake each other.
+      {"v", 'm', on},    {"", 'v', anew}, {"", 'v', on},     {"m", 'v', on},
+      {"", 'm', anew},   {"", 'v', on},   {"mv", 'c', anew}, {"", 'v', on},
+  };
+  std::map<char, ros::M_stringPtr> connections{{'m', header()}, {'v', header()}};
+  OrganMesh sheet = mesh();
+  std::uint32_t histories = 0;
+  for (const auto& row : rows) {
+    SCOPED_TRACE(std::to_string(&row - rows) + ": " + row.restarts + " " + row.sends);
+    for (const char* sender = row.restarts; *sender != 0; ++sender) connections[*sender] = header();
+    if (row.sends == 'c') sheet.triangles = {0, 1, 3};
+    const OrganChange change = row.sends == 'v' ? apply(vertices(3), ros::Time(8), connections['v'])
+                                                : apply(sheet, ros::Time(8), connections['m']);
+    EXPECT_EQ(change, row.change);
+    histories += row.change == anew ? 1 : 0;
+    EXPECT_EQ(store_.at("liver").histories(), histories);
+    const bool has_previous = store_.at("liver").latest().before != nullptr;
+    EXPECT_EQ(has_previous, row.change == on && &row != rows) << "the tissue moves";
+  }
+}
+
+TEST_F(OrganRegistryTest, ARefusedMessageIsNotOfTheOrgansSender) {
+  ros::M_stringPtr connection = header();
+  apply(mesh(), ros::Time(7), connection);
+  connection = header();
+  OrganMesh bad = mesh();
+  bad.vertices.pop_back();
+  expect_refused(bad, ContactArray::INVALID_REQUEST, "wrong size", {}, connection);
+  EXPECT_EQ(apply(mesh(), ros::Time(8), connection), OrganChange::kSender);
+}
+
+TEST_F(OrganRegistryTest, TheFirstMeshOfARemovedOrganHasNoHistoryToEnd) {
+  apply(mesh(), ros::Time(7), header());
+  OrganMesh removal;
+  removal.organ = "liver";
+  apply(removal, ros::Time(8));
+  EXPECT_EQ(apply(mesh(), ros::Time(9), header()), OrganChange::kShape);
+}
+
+TEST_F(OrganRegistryTest, AResetDoesNotHideThatTheSenderRestarts) {
+  apply(mesh(), ros::Time(7), header());
+  store_.forget_history();
+  EXPECT_EQ(apply(mesh(), ros::Time(9), header()), OrganChange::kSender);
+}
+
+/// roscpp keeps its connection until the master forgets it.
+TEST_F(OrganRegistryTest, ASenderThatCrashedIsGoneWhenAnotherOneMovesTheOrgan) {
+  const ros::M_stringPtr crashed = header("/left"), next = header("/right"), third = header();
+  apply(mesh(), ros::Time(7), crashed);
+  apply(vertices(1), ros::Time(8), crashed);
+  EXPECT_EQ(apply(vertices(3), ros::Time(8.6), next), OrganChange::kSender);
+  EXPECT_EQ(apply(mesh(), ros::Time(8.6), next), OrganChange::kShape);
+  EXPECT_EQ(apply(vertices(3), ros::Time(8.7), next), OrganChange::kShape);
+  OrganMesh cut = mesh("liver", 2);
+  cut.triangles = {0, 1, 2};
+  EXPECT_EQ(apply(cut, ros::Time(9.7), third), OrganChange::kShape) << "another node may cut";
+}
+
+TEST_F(OrganRegistryTest, TwoOpenSendersAreWarnedOfAndHistoryGoesOn) {
+  ros::Time::setNow(ros::Time(5000.0));
+  const ros::M_stringPtr left = header("/left"), right = header("/right");
+  CapturedLog log;
+  apply(mesh(), ros::Time(7), left);
+  apply(vertices(1), ros::Time(7), right);
+  EXPECT_TRUE(log.take().empty()) << "mesh and vertices may have senders of their own";
+  double now = 7.4;  // Later, the other one is known, so that it may be silent for longer.
+  for (int i = 0; i < 10; ++i, now += 0.6) {
+    EXPECT_EQ(apply(vertices(1), ros::Time(now), i % 2 == 0 ? left : right), OrganChange::kShape);
+    EXPECT_TRUE(store_.at("liver").latest().before);
+  }
+  const std::vector<std::string> lines = log.take();
+  ASSERT_EQ(lines.size(), 1U) << "it is said once in 5 s";
+  EXPECT_EQ(lines[0].find("WARN organ 'liver' has two senders on organ_vertices, '/right' and "
+                          "'/left'"),
+            0U)
+      << lines[0];
 }

@@ -123,6 +123,7 @@ TEST_F(DiagnosticsTest, ToolsWithTheirFaultsAndDoubts) {
 
 TEST_F(DiagnosticsTest, OrgansWithAgeAndSurface) {
   send_mesh(48.0, 0.0);
+  ros::Time::setNow(ros::Time(52.0));
   Values shown = of_organs();
   EXPECT_EQ(status.message, "1 organ");
   EXPECT_EQ(std::stod(shown.at("liver, age of mesh [s]")), 2.0);

@@ -56,9 +56,12 @@ struct NodeParts {
     message.header.frame_id = "liver_frame";
     message.header.stamp = ros::Time(stamp);
     if (message.organ.empty()) message.organ = "liver";
-    organ_topics.take_mesh(boost::make_shared<OrganMesh>(std::move(message)));
+    organ_topics.take_mesh(boost::make_shared<OrganMesh>(std::move(message)), connection);
     pipeline.apply_organ_messages(now);
   }
+
+  /// The organ's sender ends, and starts again.
+  void restart_sender() { connection = boost::make_shared<const ros::M_string>(); }
 
   void send_vertices(double stamp, float z) {
     OrganVertices message;
@@ -67,7 +70,7 @@ struct NodeParts {
     message.organ = "liver";
     message.topology = 1;
     message.vertices = heights(z);
-    organ_topics.take_vertices(boost::make_shared<OrganVertices>(message));
+    organ_topics.take_vertices(boost::make_shared<OrganVertices>(message), connection);
     pipeline.apply_organ_messages(now);
   }
 
@@ -95,6 +98,7 @@ struct NodeParts {
   NodeParameters parameters;
   FailureLog rejected;
   ros::CallbackQueue callbacks;
+  boost::shared_ptr<const ros::M_string> connection = boost::make_shared<const ros::M_string>();
   std::vector<ContactArray> published;
   SteadyTime now{std::chrono::hours(1)};
   /// Also called with each step, if set.

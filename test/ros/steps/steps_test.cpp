@@ -129,6 +129,8 @@ class ScriptedNode : public NodeParts {
       clock(time);
     } else if (name == "reset") {
       pipeline.reset();
+    } else if (name == "restart") {
+      restart_sender();
     } else if (name == "drop") {
       tools.clear();
       steps.change_tools({});
@@ -257,6 +259,17 @@ const std::vector<Case> kCases = {
     {"AResetForgetsTransformsAndHistoryAndWhatWaitedIsStatic",
      "tip 1 up; mesh 1 0; run; move 1.1 0; reset; tick; status no transform; tip 1.1 down; run; "
      "hook static 1 1.1 1.1; of 1.1"},
+    {"TheFirstShapeOfARestartedSenderIsStatic",
+     "tip 1 up; tip 1.1 up; mesh 1 -0.1; run; restart; mesh 1.1 1.5; run; hook static 0 1.1 1.1; "
+     "tip 1.2 up; move 1.2 -0.1; run; hook swept 2 1.2 1.1; restart; tip 1.3 up; move 1.3 1.5; "
+     "run; "
+     "hook static 0 1.3 1.3; mesh 1.3 1.5; run; hook swept 0 1.3 1.3"},
+    {"AShapeOfASenderThatIsGoneDoesNotWaitForTransforms",
+     "tip 1 up; mesh 1 0; run; move 1.1 0.1; restart; mesh 1.2 0.2; shapes 1 0 1 1; tip 1.2 up; "
+     "run; hook static 0 1.2 1.2; of 1.2"},
+    {"TicksWaitForTheFirstStepOfARestartedSender",
+     "tip 1 up; mesh 1 -0.1; run; restart; move 1.1 1.5; tick; none; tip 1.1 up; run; "
+     "hook static 0 1.1 1.1; tick; hook swept 0 1.1 1.1"},
     {"RestingTransformsAreOfNow",
      "rest down; mesh 0 0; run; hook static 1 50 50; clock 51; move 0 0; run; hook swept 1 51 50"},
 
