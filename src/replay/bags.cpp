@@ -73,16 +73,20 @@ AnswerBag::AnswerBag(const std::string& file, std::string topic)
       incomplete_(incomplete(file)),
       bag_(std::make_unique<rosbag::Bag>()) {
   try {
-    bag_->open(incomplete_, rosbag::bagmode::Write);
-  } catch (const rosbag::BagException& error) {
-    throw InputError(file + ": cannot be written: " + error.what());
+    attempt([&] { bag_->open(incomplete_, rosbag::bagmode::Write); });
+  } catch (const std::runtime_error& error) {
+    abandon();
+    throw InputError(error.what());
   }
 }
 
 AnswerBag::~AnswerBag() {
-  if (incomplete_.empty()) return;
-  // On a full disk, the destructor of rosbag::Bag throws, which would end the program with a
-  // signal. What an incomplete bag owns is left to the end of the process.
+  if (!incomplete_.empty()) abandon();
+}
+
+/// Removes the file. On a full disk, the destructor of rosbag::Bag throws, which would end the
+/// program with a signal. What an incomplete bag owns is left to the end of the process.
+void AnswerBag::abandon() {
   [[maybe_unused]] const rosbag::Bag* const abandoned = bag_.release();
   std::error_code ignored;
   std::filesystem::remove(incomplete_, ignored);

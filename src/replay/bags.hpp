@@ -84,6 +84,7 @@ class AnswerBag {
   std::string summary() const;
 
  private:
+  void abandon();
   void attempt(const std::function<void()>& write) const;
 
   std::string file_;
