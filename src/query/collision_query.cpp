@@ -14,6 +14,7 @@ namespace organ_collision {
 namespace {
 
 void clear(CollisionResult& result) {
+  result.picked = {};
   result.contacts.clear();
   result.regions.clear();
   result.view_ranges.clear();
@@ -58,8 +59,7 @@ void find_regions(const Step& step, const std::vector<FaceContact>& contacts,
     const Triangle face = step.organ().triangle(contact.face);
     Region& region = regions.emplace_back();
     for (auto volume = volumes.begin(); region.empty() && volume != volumes.end(); ++volume) {
-      region = clipped(shifted(face, volume->origin()), *volume);
-      for (Eigen::Vector3d& corner : region) corner += volume->origin();
+      region = region_of(face, *volume);
     }
   }
 }
@@ -94,8 +94,10 @@ void CollisionQuery::evaluate(const CollisionRequest& request, CollisionResult& 
   // In the end the picker is released, so that any thread may run the next query.
   const auto release = [](Picker* picker) { picker->release(); };
   const std::unique_ptr<Picker, decltype(release)> used(state_->picker.get(), release);
+  state_->picker->reset_counts();
   try {
     state_->evaluate(request, result);
+    result.picked = state_->picker->counts();
   } catch (...) {
     clear(result);
     throw;

@@ -73,10 +73,15 @@ void ContactFinder::find(const Step& step, std::vector<FaceContact>& contacts) {
 }
 
 void ContactFinder::find_in_paper_volume(const CollisionRequest& request, CollisionResult& result) {
-  picker_.pick(paper_volume(request), *request.organ, candidates_);
+  const ViewingVolume volume = paper_volume(request);
+  picker_.pick(volume, *request.organ, candidates_);
   for (const Candidate& candidate : candidates_) {
     result.contacts.emplace_back().face = candidate.face;
     result.view_ranges.push_back({candidate.view_min, candidate.view_max});
+  }
+  // Section 3 of the paper: the feedback mode gives the coordinates of the intersection.
+  if (request.regions) {
+    picker_.find_regions(volume, *request.organ, candidates_, result.regions);
   }
 }
 

@@ -23,7 +23,8 @@ class ContactFinder {
   void find(const Step& step, std::vector<FaceContact>& contacts);
 
   /// For a request in one of the paper's modes, adds a contact for each face in the paper's volume,
-  /// with its range of depths. Of a contact, only the number of the face is set.
+  /// with its range of depths, and on request its region. Of a contact, only the number of the face
+  /// is set.
   void find_in_paper_volume(const CollisionRequest& request, CollisionResult& result);
 
  private:

@@ -15,6 +15,7 @@
 #include "picking/pickers/picker.hpp"
 #include "picking/volumes/paper_volumes.hpp"
 #include "scenes.hpp"
+#include "test/picking/volumes/clip_oracle.hpp"
 #include "test/proof/exact_distance.hpp"
 #include "test/refusals.hpp"
 
@@ -183,16 +184,60 @@ TEST_P(CollisionQueryWith, RegionsAreInTheFaceAndInTheVolumeOfTheLegThatTouched)
   EXPECT_GT(filled, all * 9 / 10);
 }
 
-// Each of the paper's modes picks in its own volume. It looks at the shaft alone.
+double perimeter(const Region& polygon) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    sum += (polygon[(i + 1) % polygon.size()] - polygon[i]).norm();
+  }
+  return sum;
+}
+
+double area(const Region& polygon) {
+  Vector3d sum = Vector3d::Zero();
+  for (std::size_t i = 0; i + 1 < polygon.size(); ++i) {
+    sum += (polygon[i] - polygon[0]).cross(polygon[i + 1] - polygon[0]);
+  }
+  return 0.5 * sum.norm();
+}
+
+/// Expects that `region` is the part of `face` in `volume`, in 32 bits: it is in the face, in the
+/// volume grown by the rounding, and contains the part in the volume that is smaller by as much.
+void expect_part(const Region& region, const Triangle& face, const ViewingVolume& volume) {
+  constexpr double kRounding = 2e-6;  // [m]
+  for (const Vector3d& corner : region) {
+    EXPECT_LE(oracle::distance({corner, corner, corner}, face), 1e-7);
+    for (std::size_t i = 0; i < volume.half_space_count(); ++i) {
+      const HalfSpace space = volume.half_space(i);
+      EXPECT_LE(space.normal.dot(corner - volume.origin()) - space.offset, kRounding);
+    }
+  }
+  for (Vector3d corner : clip_oracle(volume, face, -kRounding)) {
+    corner += volume.origin();
+    double distance = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < region.size(); ++i) {
+      const Triangle piece = {region[0], region[i], region[(i + 1) % region.size()]};
+      distance = std::min(distance, oracle::distance({corner, corner, corner}, piece));
+    }
+    EXPECT_LE(distance, kRounding);
+  }
+  // Corners in another order than along the border would give another area.
+  const Region exact = region_of(face, volume);
+  EXPECT_NEAR(area(region), area(exact), kRounding * (perimeter(exact) + kRounding));
+}
+
+// Each of the paper's modes picks in its own volume. It looks at the shaft alone. A region is the
+// part of the face in that volume.
 TEST_P(CollisionQueryWith, PaperModesPickInThePapersVolumes) {
   Random random(10);
-  const TriangleMesh organ = mesh(liver());
+  const TriangleMesh organs[] = {mesh(liver()), mesh(scattered_faces(500, random))};
   const auto picker = make_picker(GetParam());
   std::size_t found = 0;
   const std::vector<Link> links = random_links(true, random);
-  for (int i = 0; i < 20; ++i) {
+  for (std::size_t i = 0; i < 40; ++i) {
+    const TriangleMesh& organ = organs[i % 2];
     CollisionRequest request = swept(organ, random_link_path(links.size(), 0.1, random), 5e-3);
     request.links = &links;
+    request.regions = i % 4 < 2;
     ShaftMotion motion{request.path.front().axis, request.path.front().axis};
     motion.end.tip = random.point(0.1);
     request.path.back().axis = motion.end;
@@ -206,6 +251,10 @@ TEST_P(CollisionQueryWith, PaperModesPickInThePapersVolumes) {
       picker->pick(volume, organ, expected);
       contacts(request);
       ASSERT_EQ(result_.contacts.size(), expected.size());
+      ASSERT_EQ(result_.regions.size(), request.regions ? expected.size() : 0U);
+      for (std::size_t k = 0; k < result_.regions.size(); ++k) {
+        expect_part(result_.regions[k], organ.triangle(expected[k].face), volume);
+      }
       for (std::size_t k = 0; k < expected.size(); ++k) {
         EXPECT_EQ(result_.contacts[k].face, expected[k].face);
         EXPECT_EQ(result_.view_ranges.at(k).min, expected[k].view_min);
@@ -216,6 +265,51 @@ TEST_P(CollisionQueryWith, PaperModesPickInThePapersVolumes) {
     picker->release();
   }
   EXPECT_GT(found, 500U);
+}
+
+// Face 0 has a corner in the tool's volume. Face 1 crosses it with its corners outside. Face 2
+// passes beside one of its edges. Outcodes reject face 3.
+TEST_P(CollisionQueryWith, CountsTheFacesThatItLooksAt) {
+  const TriangleMesh organ({0,    0,     0.1F, 1,     0,    0.1F, 1,    1,    0.1F,  //
+                            -1,   -0.5F, 0.1F, 1,     -0.5, 0.1F, 0,    1,    0.1F,  //
+                            0.05, -0.02, 0.1F, -0.02, 0.05, 0.1F, 0.06, 0.05, 0.1F,  //
+                            1,    1,     1,    2,     1,    1,    1,    2,    1},
+                           {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11});
+  CollisionRequest request = swept(organ, resting_path({{{0, 0, 0}, {0, 0, 0.2}}, {}}), 0.01);
+  const bool draws = GetParam() != PickerKind::kCpu;
+  for (int round = 0; round < 2; ++round) {  // Earlier queries do not count.
+    request.mode = QueryMode::kStatic;
+    EXPECT_EQ(contacts(request).size(), 2U);
+    EXPECT_EQ(result_.picked.drawn, draws ? 2U : 0U);
+    EXPECT_EQ(result_.picked.undrawn, draws ? 1U : 3U);
+    request.mode = QueryMode::kPaperStatic;
+    EXPECT_EQ(contacts(request).size(), 2U);
+    EXPECT_EQ(result_.picked.drawn, !draws ? 0U : GetParam() == PickerKind::kSelect ? 4U : 3U);
+    EXPECT_EQ(result_.picked.undrawn, draws ? 0U : 3U);
+  }
+}
+
+// Outcodes leave the same faces to each picker, and all contacts are among them.
+TEST_P(CollisionQueryWith, LooksAtAsManyFacesWithEachPicker) {
+  Random random(25);
+  const TriangleMesh organ = mesh(liver());
+  CollisionQuery other{PickerKind::kCpu};
+  CollisionResult by_other;
+  std::size_t all = 0, drawn = 0;
+  for (int i = 0; i < 100; ++i) {
+    const CollisionRequest request =
+        swept(organ, random_path(false, random), random.scale(1e-3, 0.01));
+    const std::size_t found = contacts(request).size();
+    const PickCounts& picked = result_.picked;
+    other.evaluate(request, by_other);
+    EXPECT_EQ(picked.drawn + picked.undrawn, by_other.picked.undrawn);
+    EXPECT_EQ(by_other.picked.drawn, 0U);
+    EXPECT_GE(picked.drawn + picked.undrawn, found);
+    all += found;
+    drawn += picked.drawn;
+  }
+  EXPECT_GT(all, 1000U);
+  EXPECT_EQ(drawn > 0, GetParam() != PickerKind::kCpu);
 }
 
 INSTANTIATE_TEST_SUITE_P(Pickers, CollisionQueryWith, testing::ValuesIn(kPickers));

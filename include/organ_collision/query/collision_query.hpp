@@ -42,8 +42,8 @@ struct CollisionRequest {
   const std::vector<Link>* links = nullptr;
   /// What is asked: static, swept or one of the paper's modes.
   QueryMode mode = QueryMode::kStatic;
-  /// Asks for the region of each contact: the part of its face in the viewing volume of the tool.
-  /// Paper modes have no regions.
+  /// Asks for the region of each contact: the part of its face in the viewing volume of the tool,
+  /// in paper modes in the paper's volume.
   bool regions = false;
 
   /// [m] Asks for the clearance up to this distance. 0: not asked for.
@@ -99,6 +99,8 @@ struct CollisionResult {
   /// The number of faces that may be within the margin but were not measured to the end, because
   /// the query reached its work limit. `near` does not contain them.
   std::size_t near_unresolved = 0;
+  /// How many faces had to be looked at one by one.
+  PickCounts picked;
   /// If asked for: how far the tool is from the organ.
   ToolClearance clearance;
   /// If asked for: on which side of the surface the tool is.

@@ -15,7 +15,8 @@
   F(BlendFunc) F(Clear) F(ClearColor) F(ClipPlane) F(ColorPointer) F(DepthMask) F(DepthRange) \
   F(DisableClientState) F(DrawArrays) F(Enable) F(EnableClientState) F(FeedbackBuffer)        \
   F(GetError) F(GetString) F(InitNames) F(LoadIdentity) F(LoadMatrixd) F(LoadName)            \
-  F(PushName) F(ReadPixels) F(RenderMode) F(SelectBuffer) F(TexCoordPointer) F(VertexPointer)
+  F(PassThrough) F(PushName) F(ReadPixels) F(RenderMode) F(SelectBuffer) F(TexCoordPointer)   \
+  F(VertexPointer)
 // clang-format on
 
 namespace organ_collision {

@@ -28,6 +28,7 @@ class CpuPicker final : public Picker {
     candidates.clear();
     outcodes_.assign(volume, OrganMotion(mesh));
     outcodes_.for_each_face([&](const FaceClusters::Face& face) {
+      ++counts_.undrawn;
       const ConvexPolygon part =
           clipped(shifted(mesh.triangle(face.corners), volume.origin()), volume);
       if (!part.empty()) candidates.push_back(candidate(face.number, part, volume));
@@ -42,7 +43,17 @@ class CpuPicker final : public Picker {
     outcodes_.for_each_face([&](const FaceClusters::Face& face) {
       candidates.push_back({face.number, 0.0, 0.0});
     });
+    counts_.undrawn += candidates.size();
     sort_by_face(candidates);
+  }
+
+  void find_regions(const ViewingVolume& volume, const TriangleMesh& mesh,
+                    const std::vector<Candidate>& candidates,
+                    std::vector<Region>& regions) override {
+    regions.clear();
+    for (const Candidate& candidate : candidates) {
+      regions.push_back(region_of(mesh.triangle(candidate.face), volume));
+    }
   }
 
   void release() override {}

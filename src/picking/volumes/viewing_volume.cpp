@@ -159,4 +159,10 @@ ConvexPolygon clipped(const Triangle& face, const ViewingVolume& volume) {
   return polygon;
 }
 
+Region region_of(const Triangle& face, const ViewingVolume& volume) {
+  Region region = clipped(shifted(face, volume.origin()), volume);
+  for (Eigen::Vector3d& corner : region) corner += volume.origin();
+  return region;
+}
+
 }  // namespace organ_collision

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "organ_collision/geometry/triangle.hpp"
+#include "organ_collision/picking/region.hpp"
 
 namespace organ_collision {
 
@@ -88,5 +89,8 @@ using ConvexPolygon = std::vector<Eigen::Vector3d>;
 /// The part of a face in a viewing volume, in double precision. The face and its part are in the
 /// volume's shifted coordinates [m]. A face that only touches the volume has such a part, too.
 ConvexPolygon clipped(const Triangle& face, const ViewingVolume& volume);
+
+/// The same for a face in the organ's frame.
+Region region_of(const Triangle& face, const ViewingVolume& volume);
 
 }  // namespace organ_collision

@@ -124,6 +124,8 @@ void show_queries(const std::vector<std::string>& misspelt, const CollisionPipel
   status.add("contacts rate [1/s]", counters.contacts.take(std::chrono::steady_clock::now()));
   show_times("queries", "query time", counters.query_times, status);
   const StepCounts steps = pipeline.steps.counts();
+  status.add("faces clipped by OpenGL", steps.picked.drawn);
+  status.add("faces decided without OpenGL", steps.picked.undrawn);
   status.add("motion samples cut", steps.samples_cut);
   status.add("motion samples cut, farthest from the swept way [m]", steps.deviation_cut);
   status.add("transforms after their step", pipeline.inbox.transforms.late());

@@ -72,6 +72,9 @@ class ContactQuery {
   /// the query fails. Returns how long the query took [s], or 0 if it failed.
   double evaluate(const CollisionRequest& request, ContactArray& answer);
 
+  /// The faces that the last query looked at one by one; none if it failed.
+  const PickCounts& picked() const { return result_.picked; }
+
   const std::string& gl_version() const { return query_.gl_version(); }
 
  private:

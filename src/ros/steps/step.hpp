@@ -117,6 +117,7 @@ struct ToolStep {
   CollisionRequest request = {};
   SampledPath sampled = {};  ///< how the path was sampled; the path itself is in `request`
   double query_sec = 0.0;    ///< [s] how long the query took; 0 if there was no query
+  PickCounts picked = {};    ///< the faces that the query looked at one by one
 };
 
 }  // namespace organ_collision

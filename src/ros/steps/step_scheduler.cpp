@@ -290,6 +290,7 @@ void StepScheduler::answer(ToolStep& step, ContactQuery& query) const {
   }
   begin_answer(step, step.end->stamp);
   step.query_sec = query.evaluate(request, *step.answer);
+  step.picked = query.picked();
   set_incomplete(*step.answer, step.sampled.unknown);
   set_memory(*step.answer, comparable ? comparable->answer.get() : nullptr);
 }
@@ -312,6 +313,8 @@ void StepScheduler::deliver(ToolStep& step) {
   if (step.is_of_shape) ++counts_.answered;
   counts_.samples_cut += step.sampled.samples_cut;
   counts_.deviation_cut = std::max(counts_.deviation_cut, step.sampled.deviation_cut);
+  counts_.picked.drawn += step.picked.drawn;
+  counts_.picked.undrawn += step.picked.undrawn;
   if (step.answer->status == ContactArray::OK) {
     poses_.set_answered(tools_[step.tool], step.organ->frame(), step.end->stamp);
     pair.last =

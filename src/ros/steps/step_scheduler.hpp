@@ -23,6 +23,7 @@ struct StepCounts {
   std::uint64_t samples_cut = 0;   ///< samples of motion, dropped because of motion_samples_max
   /// [m] The largest distance of a dropped sample from the path that was swept instead.
   double deviation_cut = 0.0;
+  PickCounts picked;  ///< the faces that the steps looked at one by one
 };
 
 /// Threads that evaluate steps side by side. The calling thread is one of these workers. There are
