@@ -64,6 +64,8 @@ constexpr EngineEntry kEngines[] = {
     {"ours_no_clusters", make_ours_no_clusters, kAll, 2e-9},
     {"select_paper", make_select_paper, 100'000, 3e-6},
     {"fcl", make_fcl, kAll, 1e-7},
+    {"fcl_obb", make_fcl_obb, 1224, 1e-6},
+    {"fcl_obb_rebuilt", make_fcl_obb_rebuilt, 1224, 3e-6},
     {"bullet", make_bullet_quantized, kAll, 1e-7},
     {"bullet_gimpact", make_bullet_gimpact, kAll, 1e-7},
     {"embree", make_embree, kAll, 5e-8},

@@ -39,6 +39,11 @@ std::unique_ptr<Engine> make_ours_no_clusters();
 std::unique_ptr<Engine> make_select_paper();
 /// FCL's AABB tree, refitted; the volume is a Convex.
 std::unique_ptr<Engine> make_fcl();
+/// FCL's tree of oriented boxes (OBBRSS), refitted. It stands in for RAPID, the paper's peer, which
+/// only rebuilds its tree.
+std::unique_ptr<Engine> make_fcl_obb();
+/// The same, rebuilt for each shape, as in the paper.
+std::unique_ptr<Engine> make_fcl_obb_rebuilt();
 /// Bullet's GImpact tree, refitted; box query and exact clip.
 std::unique_ptr<Engine> make_bullet_gimpact();
 /// Bullet's quantized tree, refitted; box query and exact clip.

@@ -8,6 +8,7 @@
 #include <fcl/narrowphase/detail/traversal/distance/mesh_shape_distance_traversal_node.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "engine.hpp"
 #include "exact_clip.hpp"
@@ -15,10 +16,9 @@
 namespace organ_collision::bench {
 namespace {
 
-using Model = fcl::BVHModel<fcl::AABB<double>>;
+using Boxes = fcl::AABB<double>;
+using OrientedBoxes = fcl::OBBRSS<double>;
 using Solver = fcl::detail::GJKSolver_libccd<double>;
-using Node =
-    fcl::detail::MeshShapeCollisionTraversalNode<fcl::AABB<double>, fcl::Convex<double>, Solver>;
 
 std::vector<fcl::Vector3<double>> points(const std::vector<float>& vertices) {
   std::vector<fcl::Vector3<double>> points;
@@ -39,35 +39,52 @@ fcl::Convex<double> convex(const ConvexSolid& solid) {
           static_cast<int>(solid.sides.size()), sides};
 }
 
+/// The traversal of a tree of `Box` with a volume.
+template <typename Box>
+struct Traversal {
+  using Node = fcl::detail::MeshShapeCollisionTraversalNode<Box, fcl::Convex<double>, Solver>;
+  static void limit(Node& node, const VolumeQuery& query) {
+    const Eigen::AlignedBox3d box = box_within_organ(query);
+    node.model2_bv = Box(box.min(), box.max());
+  }
+};
+
+template <>
+struct Traversal<OrientedBoxes> {
+  using Node = fcl::detail::MeshShapeCollisionTraversalNodeOBBRSS<fcl::Convex<double>, Solver>;
+  static void limit(Node&, const VolumeQuery&) {}  // FCL's oriented box around the volume is tight.
+};
+
 /// Calls the parts of fcl::collide instead of fcl::collide itself, which first copies the whole
 /// model if its boxes are axis-aligned.
+template <typename Box>
 class Fcl : public Engine {
  public:
+  /// `rebuilds`: makes a new tree for each shape, instead of refitting the first one.
+  explicit Fcl(bool rebuilds) : rebuilds_(rebuilds) {}
+
   void set_topology(const OrganSurface& organ, const std::vector<float>& rest) override {
-    std::vector<fcl::Triangle> triangles;
     for (std::size_t i = 0; i < organ.triangles.size(); i += 3) {
-      triangles.emplace_back(organ.triangles[i], organ.triangles[i + 1], organ.triangles[i + 2]);
+      triangles_.emplace_back(organ.triangles[i], organ.triangles[i + 1], organ.triangles[i + 2]);
     }
-    model_.beginModel(static_cast<int>(triangles.size()), static_cast<int>(rest.size() / 3));
-    model_.addSubModel(points(rest), triangles);
-    model_.endModel();
+    build(rest);
   }
 
   void update(const SharedVertices& vertices) override {
-    model_.beginReplaceModel();
-    model_.replaceSubModel(points(*vertices));
-    model_.endReplaceModel(true, true);
+    if (rebuilds_) return build(*vertices);
+    model_->beginReplaceModel();
+    model_->replaceSubModel(points(*vertices));
+    model_->endReplaceModel(true, true);
   }
 
   void query(const VolumeQuery& query, std::vector<std::uint32_t>& faces) override {
     const fcl::Convex<double> tool = convex(query.solid);
-    const fcl::CollisionRequest<double> request(static_cast<std::size_t>(model_.num_tris), false);
+    const fcl::CollisionRequest<double> request(static_cast<std::size_t>(model_->num_tris), false);
     fcl::CollisionResult<double> result;
     fcl::Transform3<double> rest = fcl::Transform3<double>::Identity();
-    Node node;
-    fcl::detail::initialize(node, model_, rest, tool, rest, &solver_, request, result);
-    const Eigen::AlignedBox3d box = box_within_organ(query);
-    node.model2_bv = fcl::AABB<double>(box.min(), box.max());
+    typename Traversal<Box>::Node node;
+    fcl::detail::initialize(node, *model_, rest, tool, rest, &solver_, request, result);
+    Traversal<Box>::limit(node, query);
     fcl::detail::collide(&node);
     faces.clear();
     for (std::size_t i = 0; i < result.numContacts(); ++i) {
@@ -77,17 +94,29 @@ class Fcl : public Engine {
   }
 
  private:
-  Model model_;
+  void build(const std::vector<float>& vertices) {
+    model_.emplace();
+    model_->beginModel(static_cast<int>(triangles_.size()), static_cast<int>(vertices.size() / 3));
+    model_->addSubModel(points(vertices), triangles_);
+    model_->endModel();
+  }
+
+  const bool rebuilds_;
+  std::vector<fcl::Triangle> triangles_;
+  std::optional<fcl::BVHModel<Box>> model_;
   Solver solver_;
 };
 
 }  // namespace
 
-std::unique_ptr<Engine> make_fcl() { return std::make_unique<Fcl>(); }
+std::unique_ptr<Engine> make_fcl() { return std::make_unique<Fcl<Boxes>>(false); }
+std::unique_ptr<Engine> make_fcl_obb() { return std::make_unique<Fcl<OrientedBoxes>>(false); }
+std::unique_ptr<Engine> make_fcl_obb_rebuilt() {
+  return std::make_unique<Fcl<OrientedBoxes>>(true);
+}
 
 namespace {
 
-using Boxes = fcl::AABB<double>;
 using Shaft = fcl::Capsule<double>;
 
 /// Calls the parts of fcl::distance, which itself refuses trees of axis-aligned boxes. The other
