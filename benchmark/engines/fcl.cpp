@@ -42,6 +42,7 @@ fcl::Convex<double> convex(const ConvexSolid& solid) {
 /// The traversal of a tree of `Box` with a volume.
 template <typename Box>
 struct Traversal {
+  using Model = fcl::BVHModel<Box>;
   using Node = fcl::detail::MeshShapeCollisionTraversalNode<Box, fcl::Convex<double>, Solver>;
   static void limit(Node& node, const VolumeQuery& query) {
     const Eigen::AlignedBox3d box = box_within_organ(query);
@@ -51,6 +52,8 @@ struct Traversal {
 
 template <>
 struct Traversal<OrientedBoxes> {
+  // Without const, a call of FCL's initialize() would be ambiguous.
+  using Model = const fcl::BVHModel<OrientedBoxes>;
   using Node = fcl::detail::MeshShapeCollisionTraversalNodeOBBRSS<fcl::Convex<double>, Solver>;
   static void limit(Node&, const VolumeQuery&) {}  // FCL's oriented box around the volume is tight.
 };
@@ -82,8 +85,9 @@ class Fcl : public Engine {
     const fcl::CollisionRequest<double> request(static_cast<std::size_t>(model_->num_tris), false);
     fcl::CollisionResult<double> result;
     fcl::Transform3<double> rest = fcl::Transform3<double>::Identity();
+    typename Traversal<Box>::Model& model = *model_;
     typename Traversal<Box>::Node node;
-    fcl::detail::initialize(node, *model_, rest, tool, rest, &solver_, request, result);
+    fcl::detail::initialize(node, model, rest, tool, rest, &solver_, request, result);
     Traversal<Box>::limit(node, query);
     fcl::detail::collide(&node);
     faces.clear();

@@ -45,8 +45,8 @@ Prints the faces that a tool touches, or touched while it moved, as CSV. Needs n
                       in the first motion it rests
   --jobs NUMBER       threads, 1 to 1024; by default one for each core. The output does not depend on
                       it
-  --picker NAME       feedback (default), select or cpu: the same contacts; select is much slower on
-                      large meshes, and cpu needs no OpenGL
+  --picker NAME       feedback (default), select or cpu: the same contacts. In the paper's modes,
+                      select draws all faces, which is much slower. cpu needs no OpenGL
   --gl NAME           where the OpenGL for picking comes from: osmesa, egl, or auto (default): OSMesa
                       where there is one, else EGL
   --margin METRES     adds the distance between tool and organ, if it is at most this; above 0

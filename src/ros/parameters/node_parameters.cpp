@@ -271,8 +271,8 @@ void add_picker(ParameterTable& t, PickerSettings& p) {
   t.choice(
       "picker", {"feedback", "select", "cpu"},
       [&p](const std::string& name) { p.kind = picker_kind(name); },
-      "how faces are picked: by GL_FEEDBACK, by GL_SELECT (as in the 1999 paper; slow), or without "
-      "OpenGL");
+      "how faces are picked: by GL_FEEDBACK, by GL_SELECT (as in the 1999 paper; slow only in the "
+      "paper's modes, where it draws all faces), or without OpenGL");
   t.choice(
       "gl", {"auto", "osmesa", "egl"}, [&p](const std::string& name) { p.gl = gl_platform(name); },
       "where the OpenGL for picking comes from. auto: OSMesa where there is one, else EGL");
