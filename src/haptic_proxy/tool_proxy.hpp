@@ -120,8 +120,8 @@ class ToolProxy {
   std::string frame_;                    ///< the frame of the published forces and the next three
   std::optional<ToolPose> hand_, held_;  ///< the last poses of the hand and the proxy
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();  ///< [m] of the tool in hand_
-  PullVelocity velocity_;                ///< of the proxy relative to the hand, in resting tissue
-  std::vector<ProxyOrgan> organs_;       ///< at the last tick
+  PullVelocity velocity_;           ///< of the proxy relative to the hand, in resting tissue
+  std::vector<ProxyOrgan> organs_;  ///< at the last tick
   Eigen::Vector3d pushed_ = Eigen::Vector3d::Zero();  ///< [m] sum of TissuePush::way
   bool is_held_ = false;       ///< whether tissue held the proxy at the last tick
   std::size_t crossings_ = 0;  ///< how many faces the proxy had pierced at the last tick

@@ -47,7 +47,7 @@ class ClearanceFinder {
   FaceSearch search_;
   WorkBudget budget_;  ///< the work of the present search
   NearestFaces nearest_;
-  std::size_t unmeasured_ = 0;  ///< see CollisionResult::near_unresolved
+  std::size_t unmeasured_ = 0;         ///< see CollisionResult::near_unresolved
   std::vector<std::uint32_t> listed_;  ///< faces near the chord of the present span
   /// The separation [m] of the present part and the nearest face so far, on any leg of the present
   /// span. The plane at right angles to it excludes most of the other faces.
