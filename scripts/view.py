@@ -57,7 +57,7 @@ class Organs:
         self.subscriber = rospy.Subscriber(topic, rospy.AnyMsg, self.on_markers, queue_size=4000)
 
     def on_markers(self, message):
-        """A surface comes in a message of its own, and all other markers in one that follows all surfaces."""
+        """A surface comes first in a message, and the status in a message that follows all surfaces, or in the same."""
         array = message._buff
         if struct.unpack_from('<I', array)[0] == 0:
             return
@@ -72,7 +72,7 @@ class Organs:
             if name in self.boxes:
                 box = frame, points.min(axis=0), points.max(axis=0), time.monotonic() + lifetime
                 self.boxes[name][number] = box
-        elif END_OF_SCENE in array:
+        if END_OF_SCENE in array:
             self.frame = self.frame or frame
             self.are_complete.set()
 

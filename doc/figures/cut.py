@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Draws cut.png: the demo, before and after the stabber has cut off the end of the lobe. Starts demo.launch, and takes
-pictures of the node's markers right after a stab.
+"""Draws cut.png: the demo, before and after the stabber has cut off the end of the lobe. Starts the node and the demo's
+simulator, and takes pictures of the node's markers right after a stab.
 
 Usage: . devel/setup.bash && doc/figures/cut.py
 """
@@ -8,7 +8,8 @@ Usage: . devel/setup.bash && doc/figures/cut.py
 import os
 import tempfile
 
-from live_scene import HERE, NODE, Camera, StillMarkers, ros_master, snapshot, started, wait_until
+from live_scene import (HERE, NODE, Camera, StillMarkers, collision_node, demo_tools, ros_master, snapshot, started,
+                        wait_until)
 
 import style
 
@@ -26,7 +27,7 @@ def main():
     with ros_master('cut'), tempfile.TemporaryDirectory() as folder:
         markers = StillMarkers(NODE + '/markers')
         figure, panels = style.panels(2, 3.6)
-        with started('roslaunch', 'organ_collision', 'demo.launch', 'report:=false'):
+        with collision_node(*demo_tools()), started('rosrun', 'organ_collision', 'liver_simulator'):
             for axes, is_cut, title in zip(panels, (False, True), ('Before the cut', 'After the cut')):
                 wait_until(lambda: markers.has(SHOWN) and (faces(markers, 'surface/liver') != WHOLE) == is_cut, title)
                 markers.markers = {key: marker for key, marker in markers.markers.items() if marker.ns in SHOWN}

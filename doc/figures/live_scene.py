@@ -22,6 +22,7 @@ import yaml
 HERE = os.path.dirname(os.path.abspath(__file__))
 NODE = '/organ_collision'
 LIMIT = 60.0  # [s] longest wait for anything
+STILL = 8.0  # [s] RViz has drawn all if its picture has not changed for so long.
 FRESH = 0.7  # The least opacity of touched faces: traces of an older step fade.
 
 
@@ -62,10 +63,14 @@ def ros_master(name):
         yield
 
 
+def demo_tools():
+    with open(os.path.join(HERE, '..', '..', 'config', 'demo_tools.yaml')) as tools:
+        return yaml.safe_load(tools)['tools']
+
+
 def liver():
     """The demo's liver at rest: the first mesh of the demo's simulator."""
-    with open(os.path.join(HERE, '..', '..', 'config', 'demo_tools.yaml')) as tools:
-        rospy.set_param('/demo', yaml.safe_load(tools))
+    rospy.set_param('/demo/tools', demo_tools())
     with started('rosrun', 'organ_collision', 'organ_collision_node', '__name:=demo'):
         with started('rosrun', 'organ_collision', 'liver_simulator', '_collision_node:=/demo'):
             return rospy.wait_for_message('/demo/organ_mesh', OrganMesh, LIMIT)
@@ -108,12 +113,13 @@ def snapshot(output, *options):
                    check=True)
 
 
-def rviz_picture(output, camera, topic, seconds=12.0):
-    """A picture of RViz, which shows the markers of this topic, after so many seconds. Needs rviz, xvfb and
-    imagemagick."""
+def rviz_picture(output, camera, publisher):
+    """A picture of RViz, which shows the markers that this publisher has sent, once it does not change any more. Needs
+    rviz, xvfb and imagemagick."""
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, 'view.rviz')
-        subprocess.run(['rosrun', 'organ_collision', 'view.py', topic, '--save', path], check=True)
+        subprocess.run(['rosrun', 'organ_collision', 'view.py', publisher.resolved_name, '--save', path], check=True)
+        wait_until(lambda: publisher.get_num_connections() == 0, 'the end of view.py')
         with open(path) as text:
             configuration = yaml.safe_load(text)
         manager = configuration['Visualization Manager']
@@ -128,8 +134,14 @@ def rviz_picture(output, camera, topic, seconds=12.0):
         screen = {'DISPLAY': display, 'LIBGL_ALWAYS_SOFTWARE': '1', 'QT_X11_NO_MITSHM': '1'}
         with started('Xvfb', display, '-screen', '0', '%dx%dx24' % camera.size, '+extension', 'GLX'):
             with started('rosrun', 'rviz', 'rviz', '--fullscreen', '-d', path, **screen):
-                time.sleep(seconds)
-                subprocess.run(['import', '-window', 'root', output], check=True, env={**os.environ, **screen})
+                wait_until(publisher.get_num_connections, 'RViz')
+                pictures = [None, b'']
+                while pictures[-1] != pictures[-2]:
+                    time.sleep(STILL)
+                    subprocess.run(['import', '-window', 'root', '-strip', output], check=True,
+                                   env={**os.environ, **screen})
+                    with open(output, 'rb') as picture:
+                        pictures.append(picture.read())
 
 
 class StillMarkers:

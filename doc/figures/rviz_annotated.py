@@ -7,7 +7,6 @@ Usage: . devel/setup.bash && doc/figures/rviz_annotated.py
 
 import os
 import tempfile
-import time
 
 from live_scene import (HERE, NODE, Camera, Scene, StillMarkers, collision_node, liver, ros_master, rviz_picture,
                         wait_until)
@@ -23,7 +22,8 @@ TROCAR, BEFORE, NOW = np.array([[-0.140, -0.02, 0.075], [-0.065, -0.045, 0.042],
 HOOK = {'name': 'hook', 'trocar_frame': 'hook_trocar', 'tip_frame': 'hook_tip', 'radius': 0.003, 'margin': 0.02,
         'max_near': 30}
 HOOK_TROCAR, HOOK_TIP = (0.130, -0.02, 0.070), (0.068, 0.005, 0.032)
-SHORT = 0.1  # [s] All markers come, and traces do not fade much.
+# Namespaces of markers.
+SHOWN = {'surface/liver', 'tools', 'swept', 'touched', 'normals', 'names', 'crossings', 'clearance', 'near', 'status'}
 CAMERA = Camera((-80, 32), (0.0, 0.0, -0.020), 0.300, (1600, 960))
 
 
@@ -48,7 +48,7 @@ def call_outs(mesh, probe, hook):
          0.5 * (place(hook.clearance.on_tool) + place(hook.clearance.on_organ)), (1060, 620)),
         ('near: faces within\nthe margin', (0.074, 0.001, 0.019), (1300, 470)))
     found = [(name, CAMERA.pixel(anchor), label) for name, anchor, label in in_liver]
-    return found + [('status of each tool', CAMERA.pixel((0.045, 0.0, -0.105)), (1230, 760))]
+    return found + [('status of each tool', (905, 727), (1180, 690))]
 
 
 def draw(picture, names):
@@ -75,11 +75,9 @@ def main():
             markers = StillMarkers(NODE + '/markers')
             scene.play([BEFORE])
             wait_until(lambda: HOOK['name'] in scene.answers, 'the hook')
-            scene.play([BEFORE, NOW])
-            time.sleep(SHORT)
-            markers.still()
+            scene.moment([BEFORE, NOW], markers, SHOWN)
             picture = os.path.join(folder, 'rviz.png')
-            rviz_picture(picture, CAMERA, '/still')
+            rviz_picture(picture, CAMERA, markers.publisher)
             draw(picture, call_outs(mesh, scene.answers[PROBE['name']], scene.answers[HOOK['name']]))
 
 

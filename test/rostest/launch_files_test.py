@@ -9,7 +9,7 @@ import sys
 import tempfile
 
 from geometry_msgs.msg import WrenchStamped
-from organ_collision.msg import Contact, ContactArray, ProxyState
+from organ_collision.msg import Contact, ContactArray, OrganMesh, ProxyState, VertexForces
 import roslib.packages
 import rospy
 import rostest
@@ -64,7 +64,7 @@ class LaunchFilesTest(LaunchCase, NodeStarter):
     def check_demo(self):
         """The organ and the tools move and touch. The RViz configuration, as view.py fits it to the organs that are
         there, shows only existing topics and frames."""
-        node = NodeClient()
+        node, forces = NodeClient(), Log('/haptic_proxy/liver/palpator/vertex_forces', VertexForces)
         touched = wait_until(lambda: node.contacts.select(lambda answer: answer.contacts), 'contacts in the scene')[0]
         self.assertEqual(touched.status, ContactArray.OK)
         path = os.path.join(tempfile.mkdtemp(), 'fitted.rviz')
@@ -80,6 +80,13 @@ class LaunchFilesTest(LaunchCase, NodeStarter):
         # The liver is about 0.2 m long, near the origin of its frame.
         self.assertTrue(0.2 < view['Distance'] < 0.8, view)
         self.assertTrue(all(abs(view['Focal Point'][axis]) < 0.1 for axis in 'XYZ'), view)
+        # After the cut, contacts and forces are about the new triangles.
+        cut = wait_until(lambda: node.contacts.select(lambda answer: answer.topology > 0 and answer.contacts),
+                         'contacts after the cut')[0]
+        mesh = rospy.wait_for_message('/organ_collision/organ_mesh', OrganMesh, timeout=LIMIT)
+        self.assertEqual(mesh.topology, cut.topology)
+        self.assertLess(max(contact.face for contact in cut.contacts), len(mesh.triangles) // 3)
+        wait_until(lambda: forces.select(lambda its: its.topology > 0 and its.vertices), 'forces after the cut')
         node.close()
 
     def test_the_rviz_file_names_displays_that_rviz_has(self):

@@ -93,7 +93,7 @@ void add_marker(Marker marker, MarkerArray& picture) {
 Vector3d add_text(const MarkerStyle& style, const Vector3d& place, double size,
                   const std::string& text, MarkerArray& picture) {
   constexpr double kHeight = 0.036, kSpacing = 0.054;  // Shares of the size.
-  constexpr std::size_t kLongest = 64;  // [bytes] The window of scripts/view.py shows as much.
+  constexpr std::size_t kLongest = 80;  // [bytes] The window of scripts/view.py shows as much.
   Vector3d next = place;
   for (std::size_t begin = 0; begin < text.size();) {
     std::size_t end = std::min(text.find('\n', begin), text.size());
