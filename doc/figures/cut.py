@@ -15,7 +15,8 @@ import style
 
 WHOLE = 1224  # faces of the liver
 SHOWN = {'surface/liver', 'tools', 'swept', 'touched'}  # namespaces of markers
-CAMERA = Camera((-40, 35), (0.055, 0.012, 0.010), 0.20, (800, 620))
+MARKERS_DEPTH = 0.25  # [m] Touched faces are yellow to red, and easy to see.
+CAMERA = Camera((-12, 30), (0.060, -0.005, 0.006), 0.21, (800, 640))
 PICTURE = ['--frame', 'liver', '--topic', 'still', '--background', '#ffffff']
 
 
@@ -27,7 +28,8 @@ def main():
     with ros_master('cut'), tempfile.TemporaryDirectory() as folder:
         markers = StillMarkers(NODE + '/markers')
         figure, panels = style.panels(2, 3.6)
-        with collision_node(*demo_tools()), started('rosrun', 'organ_collision', 'liver_simulator'):
+        simulator = ('rosrun', 'organ_collision', 'liver_simulator')
+        with collision_node(*demo_tools(), markers_depth=MARKERS_DEPTH), started(*simulator):
             for axes, is_cut, title in zip(panels, (False, True), ('Before the cut', 'After the cut')):
                 wait_until(lambda: markers.has(SHOWN) and (faces(markers, 'surface/liver') != WHOLE) == is_cut, title)
                 markers.markers = {key: marker for key, marker in markers.markers.items() if marker.ns in SHOWN}
