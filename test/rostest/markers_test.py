@@ -184,7 +184,7 @@ class ViewTest(unittest.TestCase):
         self.assertEqual(manager['Global Options']['Fixed Frame'], frame)
         view, (grid,) = manager['Views']['Current'], [d for d in manager['Displays'] if d['Class'] == 'rviz/Grid']
         size, centre = numpy.linalg.norm(numpy.subtract(high, low)), numpy.add(low, high) / 2
-        focus, origin = (numpy.array([point[axis] for axis in 'XYZ']) for point in (view['Focal Point'], grid['Offset']))
+        focus, origin = (numpy.array([at[axis] for axis in 'XYZ']) for at in (view['Focal Point'], grid['Offset']))
         self.assertLess(numpy.linalg.norm(focus - centre), 0.3 * size)
         self.assertTrue(1.2 * size < view['Distance'] < 2.5 * size, view)
         numpy.testing.assert_allclose(origin[:2], centre[:2])
