@@ -4,7 +4,9 @@
 #include <cmath>
 #include <functional>
 #include <random>
+#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "test/ros/steps/node_parts.hpp"
@@ -17,7 +19,7 @@ using namespace organ_collision;
 namespace {
 
 constexpr double kStart = 50.0;    // [s] the time of the first messages
-constexpr double kDuration = 0.8;  // [s]
+constexpr double kDuration = 0.7;  // [s]
 constexpr double kTurns = 0.4;     // [rad/s] how fast the link turns, if it does
 constexpr double kArm = 0.2;       // [m] from the axis of the link to its ball
 
@@ -46,14 +48,16 @@ std::string text_of(const Motion& motion, const Rates& rates, double stamp) {
   return text.str();
 }
 
-/// Messages whose stamps are uneven by 30 % of their period. Each is up to 4 ms on its way.
-void add(std::vector<Event>& events, decltype(Event::kind) kind, double rate,
+/// Messages from `begin` [s] on, whose stamps are uneven by 30 % of their period. Each is up to 4
+/// ms on its way.
+void add(std::vector<Event>& events, decltype(Event::kind) kind, double begin, double rate,
          std::mt19937& random) {
   std::uniform_real_distribution<double> share(0.0, 1.0);
+  const bool is_even = kind == Event::kTick;
   double last = 0.0;
-  for (int i = 0; i < kDuration * rate; ++i) {
-    const double stamp = kind == Event::kTick ? i / rate : (i + 0.3 * share(random)) / rate;
-    last = kind == Event::kTick ? stamp : std::max(last + 1e-6, stamp + 4e-3 * share(random));
+  for (int i = 0; begin + i / rate < kDuration; ++i) {
+    const double stamp = begin + (is_even ? i : i + 0.3 * share(random)) / rate;
+    last = is_even ? stamp : std::max(last + 1e-6, stamp + 4e-3 * share(random));
     events.push_back({last, kind, stamp});
   }
 }
@@ -135,9 +139,9 @@ constexpr Motion kMotions[] = {{"the sheet comes, the tool rests", 0.031, 0.0, f
 void expect_speeds(const Motion& motion, const Rates& rates, std::mt19937& random) {
   MovingNode node(motion);
   std::vector<Event> events;
-  add(events, Event::kShape, rates.shapes, random);
-  add(events, Event::kPose, rates.poses, random);
-  if (rates.ticks > 0.0) add(events, Event::kTick, rates.ticks, random);
+  add(events, Event::kPose, 0.0, rates.poses, random);
+  add(events, Event::kShape, 0.1, rates.shapes, random);
+  if (rates.ticks > 0.0) add(events, Event::kTick, 0.1, rates.ticks, random);
   std::stable_sort(events.begin(), events.end(),
                    [](const Event& a, const Event& b) { return a.time < b.time; });
   const double velocity = motion.sheet;
@@ -145,12 +149,12 @@ void expect_speeds(const Motion& motion, const Rates& rates, std::mt19937& rando
     return (to_eigen(found) - velocity * Eigen::Vector3d::UnitZ()).norm() <=
            0.05 * std::abs(velocity);
   };
-  int shapes = 0, poses = 0, measured = 0, wrong = 0, failed = 0;
+  int measured = 0, wrong = 0, failed = 0;
+  ros::Time first;
   for (const Event& event : events) {
-    shapes += event.kind == Event::kShape;
-    poses += event.kind == Event::kPose;
     for (const ContactArray& answer : node.handle(event)) {
-      if (shapes < 3 || poses < 3) continue;
+      if (first.isZero()) first = answer.mesh_stamp;
+      if (answer.mesh_stamp == first) continue;
       const bool is_hook = answer.tool == "hook";
       failed += answer.status != ContactArray::OK;
       if (answer.status != ContactArray::OK) continue;
@@ -251,7 +255,7 @@ TEST(Speed, OfTissueIsThatBetweenTheLastTwoShapesUntilTheNextOneIsOverdue) {
     ASSERT_EQ(answers.size(), 1U);
     ASSERT_EQ(answers[0].contacts.size(), 1U) << answers[0].message;
     const Eigen::Vector3d velocity = to_eigen(answers[0].contacts[0].velocity);
-    EXPECT_LT((velocity - row.velocity * Eigen::Vector3d::UnitZ()).norm(), 1e-5)
+    EXPECT_LT((velocity - row.velocity * Eigen::Vector3d::UnitZ()).norm(), 1e-4)
         << velocity.transpose();
   }
 }
