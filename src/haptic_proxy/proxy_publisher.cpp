@@ -60,12 +60,14 @@ std::vector<Contact> contacts_with(const ProxyAnswer& answer, std::size_t organ)
 }
 
 /// [N] The published force of the proxy on faces of an organ, by face and link, in the proxy's
-/// frame.
+/// frame. `index`: of the organ in the scene.
 std::map<std::pair<std::uint32_t, std::int32_t>, Vector3d> forces_on(const ProxyReport& report,
-                                                                     const ProxyOrgan& organ) {
+                                                                     std::size_t index) {
+  const ProxyOrgan& organ = report.scene->organs[index];
+  const std::string& name = report.scene->sources[index]->name();
   std::map<std::pair<std::uint32_t, std::int32_t>, Vector3d> forces;
   for (const OrganForce& of_organ : report.forces) {
-    if (of_organ.organ != organ.name || of_organ.topology != organ.shape->topology()) continue;
+    if (of_organ.organ != name || of_organ.topology != organ.shape->topology()) continue;
     for (const FaceForce& at : of_organ.on_faces) {
       const Vector3d force = -(organ.T_organ_proxy.linear().transpose() * at.force);
       forces.insert({{at.face, at.link}, Vector3d::Zero()}).first->second += force;
@@ -78,11 +80,10 @@ std::map<std::pair<std::uint32_t, std::int32_t>, Vector3d> forces_on(const Proxy
 std::vector<ProxyContact> places_of(const ProxyReport& report) {
   std::vector<ProxyContact> places;
   for (std::size_t organ = 0; organ < report.scene->organs.size(); ++organ) {
-    const ProxyOrgan& source = report.scene->organs[organ];
     const std::vector<Contact> contacts = contacts_with(*report.answer, organ);
     if (contacts.empty()) continue;
     const std::vector<std::size_t> basins = basins_of(contacts);
-    const auto forces = forces_on(report, source);
+    const auto forces = forces_on(report, organ);
     std::vector<Vector3d> of_patch(contacts.size(), Vector3d::Zero());
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       const auto force = forces.find({contacts[i].face, contacts[i].link});
@@ -94,7 +95,7 @@ std::vector<ProxyContact> places_of(const ProxyReport& report) {
       const std::size_t index = i++;
       if (basins[index] != index) continue;
       ProxyContact& place = places.emplace_back();
-      place.organ = source.name;
+      place.organ = report.scene->sources[organ]->name();
       place.link = contacts[index].link;
       place.face = contacts[index].face;
       place.vertices = contacts[index].vertices;

@@ -396,7 +396,7 @@ TEST_F(RisingTissueTest, IsDampedByItsSpeedRelativeToTheHand) {
         const double spring = parameters_.stiffness * report.answer->pull.norm();
         least = std::min(least, force(report) - spring);
         greatest = std::max(greatest, force(report) - spring);
-        const std::vector<ProxyContact> places = places_of(report);
+        const std::vector<ProxyContact> places = state_of(report).contacts;
         ASSERT_FALSE(places.empty());
         EXPECT_NEAR(places[0].velocity.z, kSpeed, 0.05 * kSpeed);
       }

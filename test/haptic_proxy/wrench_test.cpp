@@ -27,6 +27,8 @@ using oracle::Random;
 using Time = ToolProxy::Time;
 
 constexpr double kRounding = 1e-9;  // [N], [N m]
+/// Of the names of organs in a scene, as after a restart of their sender.
+constexpr char kSuffix[] = " 1";
 
 Isometry3d random_frame(Random& random) {
   Isometry3d frame = Isometry3d::Identity();
@@ -102,6 +104,13 @@ class Judge {
     EXPECT_LE((load.force - before_.force).norm(), limits.force_rate * seconds + kRounding);
     EXPECT_LE((load.torque - before_.torque).norm(), limits.torque_rate * seconds + kRounding);
     EXPECT_FALSE((!is_free_ || is_ball_) && load.torque.norm() > kRounding);
+    if (state.state == ProxyState::FREE || state.state == ProxyState::NO_ANSWER) {
+      const double counted = std::min(seconds, 2e-3);
+      EXPECT_LE(load.force.norm(),
+                std::max(0.0, before_.force.norm() - limits.force_rate * counted) + kRounding);
+      EXPECT_LE(load.torque.norm(),
+                std::max(0.0, before_.torque.norm() - limits.torque_rate * counted) + kRounding);
+    }
     before_ = load;
     last_ = now;
   }
@@ -111,7 +120,7 @@ class Judge {
     Load load;
     for (std::size_t i = 0; i < forces.vertices.size(); ++i) {
       const auto organ = std::find_if(organs.begin(), organs.end(), [&](const ProxyOrgan& known) {
-        return known.name == forces.organ;
+        return known.name == forces.organ + kSuffix;
       });
       if (organ == organs.end()) throw std::logic_error("forces on an organ that is not there");
       const float* const at = &organ->shape->vertices()[3 * forces.vertices[i]];
@@ -155,7 +164,7 @@ class Episode {
     if (random.chance(0.3)) parameters_.max_torque_rate = random.scale(0.3, 100.0);
     if (random.chance(0.3)) parameters_.puncture_force = 1.0;
     for (std::size_t i = 0; i < scene_.organs.size(); ++i) {
-      sources_.emplace_back("organ", "frame_" + std::to_string(i),
+      sources_.emplace_back(scene_.organs[i].at(0).name, "frame_" + std::to_string(i),
                             TriangleMesh({0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 2}), ros::Time(1),
                             ros::Time(1));
     }
@@ -213,6 +222,7 @@ class Episode {
     for (std::size_t i = 0; i < scene_.organs.size(); ++i) {
       ProxyOrgan organ = scene_.organs[i].at(tick);
       if (static_cast<int>(i) == gone_) continue;
+      organ.name += kSuffix;
       organ.T_organ_proxy = organ.T_organ_proxy * Eigen::Translation3d(shift_) * T_world_frame_;
       scene.organs.push_back(organ);
       scene.sources.push_back(&sources_[i]);
@@ -256,8 +266,8 @@ TEST(Wrenches, KeepTheirLimitsAndAgreeWithTheForcesOnTissueInEachMessage) {
       pressing += run.pressing;
       fading += run.fading;
     }
-    EXPECT_GT(pressing, 500) << kind;
-    EXPECT_GT(fading, 500) << kind;
+    EXPECT_GT(pressing, 50) << kind;
+    EXPECT_GT(fading, 50) << kind;
   }
 }
 
