@@ -193,7 +193,7 @@ TEST_F(LiverTest, ACutLeavesAClosedSurface) {
     const Vertices left = LiverSoftBody(cut.surface).vertices();
     const double volume = expect_closed(cut.surface.faces, left);
     EXPECT_GT(volume, 0.8 * whole);
-    EXPECT_LT(volume, 0.97 * whole);
+    EXPECT_LT(volume, 0.98 * whole);
     for (std::size_t i = 0; i < cut.origins.size(); ++i) {
       const Vector3d& place = cut.surface.vertices[i];
       const Vector3d& origin = surface_.vertices[cut.origins[i]];
@@ -230,7 +230,7 @@ TEST_F(LiverTest, WhatACutLeavesMovesOn) {
     liver_.step(kStep, {});
     ASSERT_LT(farthest_from_rest(liver_.vertices(), rest), 0.02) << "step " << step;
   }
-  EXPECT_LT(farthest_from_rest(liver_.vertices(), rest), 2e-3);
+  EXPECT_LT(farthest_from_rest(liver_.vertices(), rest), 4e-3);
 }
 
 /// [m] The distance from the axis to the liver at rest.
