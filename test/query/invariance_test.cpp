@@ -84,7 +84,9 @@ TEST_P(InvarianceWith, AShaftThatABodyCarriesMovesAsALinkOfItsShape) {
     const ToolClearance clearance = result_.clearance;
 
     LinkPart capsule = LinkPart::sphere(shape.at(0.5), radius);
-    capsule.core = ConvexCore(shape);
+    capsule.core.points[0] = shape.trocar;
+    capsule.core.points[1] = shape.tip;
+    capsule.core.count = 2;
     capsule.bounds.half_size = (0.5 * (shape.tip - shape.trocar)).cwiseAbs();
     scene.links = {{"capsule", {capsule}}};
     CollisionRequest linked = carried;
