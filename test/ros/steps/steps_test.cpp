@@ -268,7 +268,7 @@ const std::vector<Case> kCases = {
      "tip 1 up; mesh 1 0; run; move 1.1 0.1; restart; mesh 1.2 0.2; shapes 1 0 1 1; tip 1.2 up; "
      "run; hook static 0 1.2 1.2; of 1.2"},
     {"TicksWaitForTheFirstStepOfARestartedSender",
-     "tip 1 up; mesh 1 -0.1; run; restart; move 1.1 1.5; tick; none; tip 1.1 up; run; "
+     "tip 1 up; mesh 1 -0.1; run; restart; mesh 1.1 1.5; tick; none; tip 1.1 up; run; "
      "hook static 0 1.1 1.1; tick; hook swept 0 1.1 1.1"},
     {"RestingTransformsAreOfNow",
      "rest down; mesh 0 0; run; hook static 1 50 50; clock 51; move 0 0; run; hook swept 1 51 50"},
