@@ -43,7 +43,7 @@ ContactArray failed_answer(const std::string& organ, const ToolParameters& tool,
 /// Counts an answer that failed. An answer with the status OK is not counted.
 void count_failure(FailureLog& log, std::uint8_t status, const std::string& message);
 
-/// Whether the shape is older than `timeout_sec`. If `timeout_sec` is 0, no shape is stale.
+/// Whether the shape came longer ago than `timeout_sec`. If `timeout_sec` is 0, no shape is stale.
 bool is_stale(const OrganShape& shape, ros::Time now, double timeout_sec);
 /// The message for the status STALE_MESH, with the age and the limit.
 std::string stale_message(const std::string& organ, const OrganShape& shape, ros::Time now,
