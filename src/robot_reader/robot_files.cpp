@@ -260,8 +260,8 @@ void limit_process() {
 }
 
 ScopedTimeLimit::ScopedTimeLimit(std::size_t bytes) {
-  const std::chrono::milliseconds more(bytes / reader_limits::kMeshBytesPerMillisecond);
-  const std::chrono::milliseconds time = reader_limits::kMeshTime + more;
+  const std::chrono::milliseconds more(bytes / reader_limits::kBytesPerMillisecond);
+  const std::chrono::milliseconds time = reader_limits::kParsingTime + more;
   itimerval timer{};
   timer.it_value.tv_sec = time.count() / 1000;
   timer.it_value.tv_usec = time.count() % 1000 * 1000;

@@ -50,11 +50,11 @@ inline constexpr std::size_t kMemoryBytes = std::size_t{2} << 30;
 /// The most processor time of robot_reader. For files of the largest legal size, it needs a few
 /// seconds.
 inline constexpr std::chrono::seconds kProcessorTime{10};
-/// The most processor time for one mesh file is kMeshTime, and a millisecond more for every
-/// kMeshBytesPerMillisecond bytes. Some broken files keep a parser busy for ever. An OBJ file is
-/// read with 30 MB a second.
-inline constexpr std::chrono::milliseconds kMeshTime{200};
-inline constexpr std::size_t kMeshBytesPerMillisecond = 2000;
+/// The most processor time for the URDF, and for each mesh file, is kParsingTime, and a millisecond
+/// more for every kBytesPerMillisecond bytes. Some broken files keep a parser busy for ever. An OBJ
+/// file is read with 30 MB a second.
+inline constexpr std::chrono::milliseconds kParsingTime{200};
+inline constexpr std::size_t kBytesPerMillisecond = 2000;
 
 /// The most real time of robot_reader. On a busy machine, real time is longer than processor time.
 inline constexpr std::chrono::seconds kTime{30};
