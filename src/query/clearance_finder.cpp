@@ -26,7 +26,7 @@ constexpr std::size_t most_listed(std::size_t found) { return 64 + 2 * found; }
 
 ToolClearance ClearanceFinder::find(const Step& step, const CollisionRequest& request,
                                     const std::vector<FaceContact>& contacts,
-                                    const WorkBudget& budget) {
+                                    const NearestAtEnd& known, const WorkBudget& budget) {
   budget_ = budget;
   ToolClearance clearance;
   clearance.unlimited = request.clearance;
@@ -34,7 +34,8 @@ ToolClearance ClearanceFinder::find(const Step& step, const CollisionRequest& re
   clearance.state = ClearanceState::kBeyondMargin;
   const double limit = request.clearance ? std::numeric_limits<double>::infinity() : request.margin;
   const Step at_end = step.at_end();
-  if (const auto end = nearest(at_end, limit)) {
+  const bool is_known = known.is_known && (known.nearest || !request.clearance);
+  if (const auto end = is_known ? known.nearest : nearest(at_end, limit)) {
     const FaceContact contact = contact_of(at_end, *end);
     clearance.state = ClearanceState::kKnown;
     clearance.distance = end->distance;
@@ -89,19 +90,19 @@ std::optional<Approach> ClearanceFinder::nearest(const Step& step, double distan
   return found.empty() ? std::nullopt : std::optional<Approach>(found.front());
 }
 
-void ClearanceFinder::find_near(const Step& step, const CollisionRequest& request,
-                                CollisionResult& result) {
+NearestAtEnd ClearanceFinder::find_near(const Step& step, const CollisionRequest& request,
+                                        CollisionResult& result) {
   std::size_t parts = step.has_shaft() ? 1 : 0;
   for (std::size_t link = 0; link < step.link_count(); ++link) {
     parts += step.link(link).parts.size();
   }
-  find_near(step, request, result,
-            WorkBudget::for_near(request.max_near, parts * step.leg_count()));
+  return find_near(step, request, result,
+                   WorkBudget::for_near(request.max_near, parts * step.leg_count()));
 }
 
 /// Searches one face more than asked for, which tells near_more.
-void ClearanceFinder::find_near(const Step& step, const CollisionRequest& request,
-                                CollisionResult& result, const WorkBudget& budget) {
+NearestAtEnd ClearanceFinder::find_near(const Step& step, const CollisionRequest& request,
+                                        CollisionResult& result, const WorkBudget& budget) {
   budget_ = budget;
   unmeasured_ = 0;
   nearest_.start(step.organ().face_count(), request.max_near + 1, request.margin);
@@ -114,6 +115,9 @@ void ClearanceFinder::find_near(const Step& step, const CollisionRequest& reques
     result.near.back().depth = -near.distance;
   }
   result.near_unresolved = std::min(unmeasured_, step.organ().face_count());
+  if (!step.is_at_rest() || !result.contacts.empty() || unmeasured_ > 0) return {};
+  const std::vector<Approach>& found = nearest_.found();
+  return {true, found.empty() ? std::nullopt : std::optional<Approach>(found.front())};
 }
 
 /// ToolClearance::closing_speed. `end`: the nearest approach at the end of the step. `normal`: from

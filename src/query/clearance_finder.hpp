@@ -12,22 +12,31 @@
 
 namespace organ_collision {
 
+/// The nearest face within the margin at the end of a step.
+struct NearestAtEnd {
+  bool is_known = false;
+  std::optional<Approach> nearest;  ///< none: all faces are beyond the margin
+};
+
 /// Finds how near an organ comes to a tool: the clearance and the near faces. FaceSearch leads to
 /// the nearest faces. GL is not used, because measuring distances needs no clipping. Keeps its
 /// memory between steps.
 class ClearanceFinder {
  public:
   /// How far the tool is from the organ at the end of the step, and how near it came during the
-  /// step, as the request asks. `contacts` are the contacts of the step.
+  /// step, as the request asks. `contacts` are the contacts of the step. `end`: what find_near()
+  /// returned for this step, so that it need not be searched again.
   ToolClearance find(const Step& step, const CollisionRequest& request,
-                     const std::vector<FaceContact>& contacts,
+                     const std::vector<FaceContact>& contacts, const NearestAtEnd& end = {},
                      const WorkBudget& budget = WorkBudget::for_clearance());
 
   /// Sets the fields of `result` about near faces: faces within the margin that the tool does not
-  /// touch during the step. `result` must hold the contacts of the step already.
-  void find_near(const Step& step, const CollisionRequest& request, CollisionResult& result);
-  void find_near(const Step& step, const CollisionRequest& request, CollisionResult& result,
-                 const WorkBudget& budget);
+  /// touch during the step. `result` must hold the contacts of the step already. The end of a step
+  /// without motion and contacts is then known.
+  NearestAtEnd find_near(const Step& step, const CollisionRequest& request,
+                         CollisionResult& result);
+  NearestAtEnd find_near(const Step& step, const CollisionRequest& request, CollisionResult& result,
+                         const WorkBudget& budget);
 
  private:
   class LegSearch;

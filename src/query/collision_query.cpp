@@ -113,10 +113,11 @@ void CollisionQuery::State::evaluate(const CollisionRequest& request, CollisionR
       std::count_if(result.contacts.begin(), result.contacts.end(),
                     [](const FaceContact& contact) { return !contact.is_resolved; }));
   if (request.regions) find_regions(step, result.contacts, result.regions);
+  NearestAtEnd end;
+  if (request.max_near > 0) end = clearance.find_near(step, request, result);
   if (asks_for_clearance(request)) {
-    result.clearance = clearance.find(step, request, result.contacts);
+    result.clearance = clearance.find(step, request, result.contacts, end);
   }
-  if (request.max_near > 0) clearance.find_near(step, request, result);
   for (std::vector<FaceContact>* faces : {&result.contacts, &result.near}) {
     for (FaceContact& at : *faces) at.velocity = tissue_velocity(request, at.face, at.barycentric);
   }

@@ -408,7 +408,8 @@ TEST(ClearanceFinder, IsRightOrUnresolvedWithAnyBudget) {
       }
       EXPECT_GE(result.near.size() + result.near_unresolved, all.near.size());
       unresolved += result.near_unresolved;
-      const ToolClearance clearance = finder.find(step, scene.request, {}, with_steps_left(steps));
+      const ToolClearance clearance =
+          finder.find(step, scene.request, {}, {}, with_steps_left(steps));
       if (clearance.is_resolved) {
         EXPECT_NEAR(clearance.distance, at_end, kExact) << "steps " << steps;
         EXPECT_NEAR(clearance.least, least_of(measured), kMoving) << "steps " << steps;
