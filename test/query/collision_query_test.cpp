@@ -416,7 +416,7 @@ TEST_F(Refusals, NameWhatIsWrongWithALink) {
       {"must be a rotation", [&](Request& r) { pose(r).linear().setZero(); }},
       {"pose_before has poses of 0 links",
        [](Request& r) {
-         r.pose_before = ToolPose{};
+         r.pose_before.emplace();
          r.pose_before_sec = 0.1;
        }},
       {"radius is -0.001", [](Request& r) { r.radius = -1e-3; }},

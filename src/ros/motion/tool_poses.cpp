@@ -228,7 +228,7 @@ std::string ToolPoses::why_not(const ToolParameters& tool, const std::string& or
   const auto oldest = buffer_.oldest_transform(frame, {organ_frame});
   const auto of_organ = buffer_.oldest_transform(organ_frame, {frame});
   if (!oldest || oldest->frame != tip) return why;
-  if (of_organ && of_organ->stamp < oldest->stamp) return why;
+  if (of_organ && of_organ->received < oldest->received) return why;
   const auto rate = buffer_.rate(tip);
   return concatenate(
       why, ": poses on ", topic,

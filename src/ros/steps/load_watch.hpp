@@ -36,7 +36,7 @@ class LoadWatch {
     double busy_sec = 0.0;
     std::uint64_t rounds = 0, merged = 0;
     double slowest_sec = 0.0;  ///< the longest query
-    std::string slowest;       ///< the tool and the organ of that query, and what was asked
+    std::string slowest = {};  ///< the tool and the organ of that query, and what was asked
   };
 
   Period period_;
