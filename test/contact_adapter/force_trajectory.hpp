@@ -98,7 +98,7 @@ inline std::vector<ForceStep> forces_along(const std::vector<ToolWaypoint>& pose
     if (request.links) answer.links = {request.links->front().name};
     answer.mode = static_cast<std::uint8_t>(request.mode);
     for (const FaceContact& at : result.contacts) answer.contacts.push_back(to_message(at));
-    answer.clearance = to_message(result.clearance, 0.0);
+    answer.clearance = to_message(result.clearance);
     answer.placement = to_message(result.placement);
     const bool is_tip_inside = answer.placement.tip == ToolPlacement::INSIDE;
     steps.push_back({pose, law(answer), answer.contacts.size(),
