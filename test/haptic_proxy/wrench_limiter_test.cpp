@@ -21,11 +21,9 @@ const Vector3d kUp = Vector3d::UnitZ();
 OrganForce organ_force(const std::string& organ, const Vector3d& force,
                        const Vector3d& torque = Vector3d::Zero()) {
   OrganForce of_organ{organ, organ + "_frame", 3, force, torque, {}};
-  FaceForce at;
-  at.force = 0.5 * force;
   for (const std::uint32_t face : {0U, 1U}) {
-    at.face = face;
-    of_organ.on_faces.push_back(at);
+    of_organ.on_faces.push_back(
+        {face, kShaft, {0, 1, 2}, Vector3d::UnitX(), Vector3d::Zero(), 0.5 * force});
   }
   return of_organ;
 }

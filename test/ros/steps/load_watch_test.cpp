@@ -56,7 +56,7 @@ TEST_F(LoadWatchTest, ANodeFallsBehindIfInputsShareStepsThatTakeAllTheTime) {
     ASSERT_EQ(report.has_value(), row.is_behind) << row.period_ms;
     EXPECT_FALSE(load.take_report());
     if (!report) continue;
-    for (const std::string& part :
+    for (const char* const part :
          {"tool 'hook', organ 'liver' (2 faces)", "margin 0.1", "max_near 5", "placement"}) {
       EXPECT_NE(report->find(part), std::string::npos) << *report;
     }
