@@ -37,7 +37,8 @@ class Moment:
 
     def spring(self):
         """The centres of proxy and hand."""
-        return [place(point) for point in self.all('spring')[0].points]
+        hand, proxy = (place(point) for point in self.all('spring')[0].points)
+        return proxy, hand
 
     def triangles(self):
         points = [place(point) for marker in self.all('surface/liver') for point in marker.points]
@@ -109,9 +110,9 @@ def draw_section(axes, moment):
         style.arrow(axes, head, head + 0.5 * (head - tail), FORCE, width=3.0)
     axes.set(xlim=(-HALF_WIDTH, HALF_WIDTH), ylim=(-BELOW, ABOVE))
     for text, anchor, label in (('proxy', at + (0.004, 0.002), (0.014, 0.012)),
-                                ('hand', below + (0.004, -0.001), (0.016, -0.002)),
+                                ('hand', below + (0.004, -0.002), (0.016, -0.016)),
                                 ('spring', 0.5 * (at + below), (-0.024, -0.006)),
-                                ('force on\nthe liver', at - (0.0, 0.0115), (-0.028, -0.020))):
+                                ('force on\nthe liver', at + (0.002, -0.009), (-0.028, -0.020))):
         axes.annotate(text, anchor, label, color=style.TEXT, fontsize=11, va='center',
                       arrowprops={'arrowstyle': '-', 'color': style.TEXT, 'lw': 0.8})
 
