@@ -32,11 +32,10 @@ struct CollisionRequest {
   /// The organ's shape at the start of the step, with the same faces. Each vertex moves linearly
   /// to its place in `organ`. Null: the organ rests. Static and paper modes ignore it.
   const TriangleMesh* organ_before = nullptr;
-  /// An earlier shape, with the same faces, and the time [s] from it to `organ`. The velocities in
-  /// the answer are those of this motion, which may be longer or shorter than the step. Null: the
-  /// tissue rests.
+  /// An earlier shape, with the same faces. The velocities in the answer are those of the motion
+  /// from it to `organ`, which may be longer or shorter than the step. Null: the tissue rests.
   const TriangleMesh* velocity_from = nullptr;
-  double velocity_sec = 0.0;
+  double velocity_sec = 0.0;  ///< [s] the time from `velocity_from` to `organ`
   /// How the tool moved. Static modes look only at the last waypoint.
   ToolPath path;
   /// [m] The radius of the shaft: the tool touches every face that comes within this distance of
@@ -55,10 +54,9 @@ struct CollisionRequest {
   double margin = 0.0;
   /// Asks for the clearance without a limit.
   bool clearance = false;
-  /// Asks for ToolClearance::closing_speed: the tool's pose `pose_before_sec` [s] before the end of
-  /// the step.
+  /// Asks for ToolClearance::closing_speed: an earlier pose of the tool.
   std::optional<ToolPose> pose_before;
-  double pose_before_sec = 0.0;
+  double pose_before_sec = 0.0;  ///< [s] the time from `pose_before` to the end of the step
   /// Asks for at most this many faces that are within the margin and not touched. 0: none.
   std::size_t max_near = 0;
 

@@ -260,7 +260,8 @@ SampledPath ToolPoses::path(const Tool& tool, const std::string& organ_frame,
           continue;
         }
       }
-      path.add(static_cast<double>(elapsed(from.stamp, next.stamp)) / duration, next.value);
+      const auto passed = static_cast<double>(elapsed(from.stamp, next.stamp));
+      path.add(next.stamp == to.stamp ? 1.0 : passed / duration, next.value);
       last = std::move(ahead.back());
       ahead.pop_back();
     }

@@ -490,7 +490,7 @@ TEST_F(QueryServicesTest, SweepsBackwardsInTimeAreRefused) {
 TEST_F(QueryServicesTest, RemovedOrganAndStaleMesh) {
   parameters.mesh_timeout_sec = 2.0;
   ros::Time::setNow(ros::Time::now() + ros::Duration(2.5));
-  expect_refused(ContactArray::STALE_MESH, {"'liver'", "2.50 s", "2"});
+  expect_refused(ContactArray::STALE_MESH, {"'liver'", "2.5 s", "2"});
   expect_refused(batch_of({through()}), ContactArray::STALE_MESH, "'liver'");
   OrganMesh nothing;
   nothing.organ = "liver";
