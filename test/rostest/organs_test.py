@@ -157,13 +157,16 @@ class OrgansTest(KeepsContract, ContactCase):
 
     def test_two_simulators_of_one_organ(self):
         log = Log('/rosout', LogLine)
-        _, answers = self.start('left', BELOW)
+        self.start('left', BELOW)
         self.start('right', 1.1 * BELOW)
         warning = "organ '%s' has two senders on organ_vertices, '/" % self.organ
         wait_until(lambda: log.select(lambda line: line.msg.startswith(warning)),
                    lambda: [line.msg for line in log.messages])
-        answers = self.node.contacts.of(self.organ)
-        self.assertEqual([answer.mode for answer in answers[1:]], [SWEPT] * (len(answers) - 1))
+        # From here on, both are known, and neither counts as gone, however late a busy machine lets them send.
+        known = rospy.Time.now()
+        answers = lambda: [answer for answer in self.node.contacts.of(self.organ) if answer.mesh_stamp > known]
+        wait_until(lambda: len(answers()) >= 20, 'answers about the shapes of both')
+        self.assertEqual({answer.mode for answer in answers()}, {SWEPT})
 
     def test_other_triangles_with_the_same_number(self):
         """One simulator must raise the number or reset. Over a new connection they are a new organ, and the same
