@@ -171,7 +171,7 @@ class PythonModuleTest(unittest.TestCase):
             ("^UNKNOWN_ORGAN: .*'sheeet'", lambda: self.queries.query('sheeet', TROCAR, TIP, RADIUS)),
             ('^UNKNOWN_ORGAN', lambda: self.queries.query_many('sheeet', [TROCAR], [TIP], RADIUS)),
             ('^UNKNOWN_ORGAN', lambda: self.queries.wait_for('sheeet', 0.1)),
-            ('^INVALID_REQUEST: .*-1', lambda: self.queries.query('sheet', TROCAR, TIP, -1)),
+            ('^INVALID_REQUEST: .*-1', lambda: self.queries.query('sheet', TROCAR, TIP, -1, frame='table')),
         ):
             with self.assertRaisesRegex(CollisionError, error) as raised:
                 ask()
