@@ -31,7 +31,10 @@ def simulate(organ, height):
     rospy.init_node('simulator')  # The test gives it another name.
     node = NodeClient()
     sheet = SHEET.moved(lambda v: (v[0], v[1], height))
-    node.bring(organ, sheet, rospy.Time.now())
+    start = rospy.Time.now()
+    node.send_mesh(organ, sheet, start)
+    # Another simulator of the organ may have sent a later shape meanwhile.
+    wait_until(lambda: node.query(organ, FAR_AWAY).mesh_stamp >= start, 'the shape of a simulator')
     while not rospy.is_shutdown():
         node.send_vertices(organ, sheet, rospy.Time.now())
         rospy.rostime.wallsleep(0.02)

@@ -1,5 +1,6 @@
 #include "senders.hpp"
 
+#include <algorithm>
 #include <iterator>
 
 #include "text.hpp"
@@ -28,7 +29,7 @@ Senders::Change Senders::note(Stream stream, const Connection& connection, ros::
   const bool is_first = last.known.insert(connection).second;
   Change change;
   if (!is_same(last.connection, {}) && !is_same(last.connection, connection)) {
-    const bool is_silent = now.toSec() - last.heard.toSec() > kSilence;
+    const bool is_silent = now.toSec() - last_heard(caller_of(last.connection)).toSec() > kSilence;
     change.has_restarted = last.connection.expired() || (is_first && is_silent && moves);
     if (!change.has_restarted) change.other = caller_of(last.connection);
   }
@@ -42,6 +43,15 @@ Senders::Change Senders::note(Stream stream, const Connection& connection, ros::
   last.connection = connection;
   last.heard = now;
   return change;
+}
+
+/// When the last message of a node came, of either stream.
+ros::Time Senders::last_heard(const std::string& caller) const {
+  ros::Time latest;
+  for (const Last& of_stream : last_) {
+    if (caller_of(of_stream.connection) == caller) latest = std::max(latest, of_stream.heard);
+  }
+  return latest;
 }
 
 }  // namespace organ_collision

@@ -49,6 +49,8 @@ class Senders {
     ros::Time heard = {};
     std::set<Connection> known = {};  ///< over which messages have come
   };
+  ros::Time last_heard(const std::string& caller) const;
+
   std::array<Last, 2> last_;  ///< of each stream
 };
 

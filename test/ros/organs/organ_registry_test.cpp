@@ -294,6 +294,13 @@ TEST_F(OrganRegistryTest, ASenderThatCrashedIsGoneWhenAnotherOneMovesTheOrgan) {
   EXPECT_EQ(apply(cut, ros::Time(9.7), third), OrganChange::kShape) << "another node may cut";
 }
 
+TEST_F(OrganRegistryTest, ASenderThatGoesOnWithVerticesIsNotSilent) {
+  const ros::M_stringPtr left = header("/left"), right = header("/right");
+  apply(mesh(), ros::Time(7), left);
+  for (const double now : {7.4, 7.8, 8.2}) apply(vertices(1), ros::Time(now), left);
+  EXPECT_EQ(apply(mesh(), ros::Time(8.3), right), OrganChange::kShape) << "two senders are open";
+}
+
 TEST_F(OrganRegistryTest, TwoOpenSendersAreWarnedOfAndHistoryGoesOn) {
   ros::Time::setNow(ros::Time(5000.0));
   const ros::M_stringPtr left = header("/left"), right = header("/right");
