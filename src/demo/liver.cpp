@@ -210,7 +210,7 @@ CutSurface cut_off(const ClosedSurface& whole, const Eigen::Hyperplane<double, 3
     left.origins.resize(centre + 1, left.origins[from]);
     rim += left.surface.vertices[from];
   }
-  left.surface.vertices.push_back(rim / static_cast<double>(left.surface.faces.size() - faces));
+  left.surface.vertices.emplace_back(rim / static_cast<double>(left.surface.faces.size() - faces));
   return left;
 }
 
