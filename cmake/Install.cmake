@@ -1,4 +1,4 @@
-# Installs everything except the programs and the nodelet, which their own CMakeLists.txt install.
+# Installs everything except the programs and the library of the nodes, which their own CMakeLists.txt install.
 # ROS packages find the package as `organ_collision` (catkin's configuration). Programs without ROS
 # find the first three layers as `organ_collision_core`.
 include(CMakePackageConfigHelpers)
@@ -18,9 +18,7 @@ install(FILES cmake/organ_collision_coreConfig.cmake
 install(DIRECTORY include/organ_collision/
   DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION} FILES_MATCHING PATTERN "*.hpp")
 
-install(TARGETS organ_collision_ros
-  ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
-  LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
+install(FILES nodelet_plugins.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 install(DIRECTORY config launch urdf DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}
   PATTERN "*.py" EXCLUDE)
 install(DIRECTORY examples DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}

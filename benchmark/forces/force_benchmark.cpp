@@ -8,8 +8,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "common/messages/conversions.hpp"
 #include "contact_adapter/force_law.hpp"
-#include "ros/messages/conversions.hpp"
 
 namespace organ_collision::bench {
 namespace {

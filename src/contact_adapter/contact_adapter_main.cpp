@@ -13,13 +13,13 @@
 #include <chrono>
 #include <map>
 
+#include "common/messages/checked_messages.hpp"
+#include "common/messages/failure_log.hpp"
+#include "common/messages/text.hpp"
+#include "common/program/program.hpp"
 #include "contact_adapter_parameters.hpp"
 #include "force_law.hpp"
 #include "organ_collision/ros/names.hpp"
-#include "ros/messages/checked_messages.hpp"
-#include "ros/messages/failure_log.hpp"
-#include "ros/messages/text.hpp"
-#include "ros/node/program.hpp"
 
 namespace organ_collision {
 namespace {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "forces/forces.hpp"
-#include "ros/parameters/parameter_table.hpp"
+#include "common/parameters/parameter_table.hpp"
+#include "haptics/forces.hpp"
 
 namespace organ_collision {
 

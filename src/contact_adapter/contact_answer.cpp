@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/messages/conversions.hpp"
+#include "common/messages/failure_log.hpp"
+#include "common/messages/text.hpp"
 #include "geometry/concatenate.hpp"
 #include "organ_collision/query/query_mode.hpp"
 #include "organ_collision/ros/names.hpp"
-#include "ros/messages/conversions.hpp"
-#include "ros/messages/failure_log.hpp"
-#include "ros/messages/text.hpp"
 
 namespace organ_collision {
 namespace {

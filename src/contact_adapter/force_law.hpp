@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "forces/forces.hpp"
+#include "common/messages/conversions.hpp"
+#include "haptics/forces.hpp"
 #include "pushes.hpp"
-#include "ros/messages/conversions.hpp"
 
 namespace organ_collision {
 

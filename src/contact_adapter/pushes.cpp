@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "forces/basins.hpp"
+#include "common/messages/conversions.hpp"
+#include "common/messages/failure_log.hpp"
 #include "geometry/concatenate.hpp"
-#include "ros/messages/conversions.hpp"
-#include "ros/messages/failure_log.hpp"
+#include "haptics/basins.hpp"
 
 namespace organ_collision {
 namespace {

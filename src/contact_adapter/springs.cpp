@@ -8,7 +8,7 @@
 #include <numeric>
 #include <string>
 
-#include "ros/messages/failure_log.hpp"
+#include "common/messages/failure_log.hpp"
 
 namespace organ_collision {
 namespace {

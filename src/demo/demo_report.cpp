@@ -15,11 +15,11 @@
 #include <map>
 #include <set>
 
-#include "offline/user_input.hpp"
+#include "common/messages/conversions.hpp"
+#include "common/program/program.hpp"
+#include "common/program/user_input.hpp"
+#include "node/markers/markers.hpp"
 #include "organ_collision/ros/names.hpp"
-#include "ros/markers/markers.hpp"
-#include "ros/messages/conversions.hpp"
-#include "ros/node/program.hpp"
 
 namespace organ_collision {
 namespace {

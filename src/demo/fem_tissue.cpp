@@ -14,10 +14,10 @@
 #include <boost/make_shared.hpp>
 #include <cmath>
 
+#include "common/messages/conversions.hpp"
+#include "common/program/program.hpp"
 #include "fem_block.hpp"
 #include "organ_collision/ros/names.hpp"
-#include "ros/messages/conversions.hpp"
-#include "ros/node/program.hpp"
 
 namespace organ_collision {
 namespace {

@@ -15,12 +15,12 @@
 #include <algorithm>
 #include <map>
 
+#include "common/messages/conversions.hpp"
+#include "common/program/program.hpp"
 #include "geometry/concatenate.hpp"
 #include "geometry/tool/least_rotation.hpp"
 #include "liver.hpp"
 #include "organ_collision/ros/names.hpp"
-#include "ros/messages/conversions.hpp"
-#include "ros/node/program.hpp"
 
 namespace organ_collision {
 namespace {

@@ -8,10 +8,10 @@
 #include <iostream>
 #include <list>
 
+#include "common/messages/failure_log.hpp"
+#include "common/messages/text.hpp"
+#include "common/program/user_input.hpp"
 #include "contact_contract.hpp"
-#include "offline/user_input.hpp"
-#include "ros/messages/failure_log.hpp"
-#include "ros/messages/text.hpp"
 
 namespace organ_collision {
 namespace {

@@ -6,9 +6,9 @@
 #include <set>
 #include <utility>
 
+#include "common/messages/conversions.hpp"
+#include "common/messages/text.hpp"
 #include "organ_collision/query/contact.hpp"
-#include "ros/messages/conversions.hpp"
-#include "ros/messages/text.hpp"
 
 namespace organ_collision {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "common/messages/conversions.hpp"
 #include "organ_collision/query/contact.hpp"
-#include "ros/messages/conversions.hpp"
 
 namespace organ_collision {
 namespace {

@@ -5,8 +5,8 @@
 #include <limits>
 #include <string>
 
+#include "common/messages/failure_log.hpp"
 #include "force_trajectory.hpp"
-#include "ros/messages/failure_log.hpp"
 #include "test/refusals.hpp"
 
 namespace organ_collision {

@@ -9,10 +9,10 @@
 #include <functional>
 #include <vector>
 
+#include "common/messages/conversions.hpp"
 #include "contact_adapter/contact_answer.hpp"
+#include "node/steps/contact_array.hpp"
 #include "organ_collision/query/collision_query.hpp"
-#include "ros/messages/conversions.hpp"
-#include "ros/steps/contact_array.hpp"
 #include "test/grid_surface.hpp"
 
 namespace organ_collision {

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/messages/failure_log.hpp"
 #include "force_trajectory.hpp"
-#include "ros/messages/failure_log.hpp"
 
 namespace organ_collision {
 namespace {

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <random>
 
+#include "common/messages/failure_log.hpp"
 #include "force_trajectory.hpp"
-#include "forces/basins.hpp"
-#include "ros/messages/failure_log.hpp"
+#include "haptics/basins.hpp"
 
 namespace organ_collision {
 namespace {

@@ -6,10 +6,10 @@
 #include <cstdio>
 #include <memory>
 
+#include "common/messages/conversions.hpp"
 #include "contact_adapter/force_law.hpp"
 #include "demo/liver.hpp"
 #include "organ_collision/query/haptic_proxy.hpp"
-#include "ros/messages/conversions.hpp"
 #include "test/contact_adapter/force_trajectory.hpp"
 
 namespace organ_collision {

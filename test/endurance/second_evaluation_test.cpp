@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <boost/make_shared.hpp>
 
+#include "node/motion/path_builder.hpp"
 #include "organ_collision/query/collision_query.hpp"
-#include "ros/motion/path_builder.hpp"
 #include "soak.hpp"
 
 using namespace organ_collision;

@@ -7,17 +7,17 @@
 #include <string>
 #include <vector>
 
+#include "adapters/mesh_adapter_parameters.hpp"
+#include "common/messages/robot_reply.hpp"
+#include "common/program/user_input.hpp"
 #include "contact_adapter/contact_adapter_parameters.hpp"
 #include "contact_adapter/contact_answer.hpp"
 #include "fuzz_input.hpp"
-#include "haptic_proxy/haptic_proxy_parameters.hpp"
-#include "mesh_adapter/mesh_adapter_parameters.hpp"
-#include "offline/motions.hpp"
-#include "offline/shapes.hpp"
-#include "offline/user_input.hpp"
+#include "haptics/haptic_proxy_parameters.hpp"
 #include "picking/gl/drawing.hpp"
-#include "replay/yaml_parameters.hpp"
-#include "ros/tools/robot_reply.hpp"
+#include "programs/query_offline/motions.hpp"
+#include "programs/query_offline/shapes.hpp"
+#include "programs/replay/yaml_parameters.hpp"
 
 using namespace organ_collision;
 

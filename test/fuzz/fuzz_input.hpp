@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-#include "ros/messages/checked_messages.hpp"
+#include "common/messages/checked_messages.hpp"
 
 namespace organ_collision {
 

@@ -9,17 +9,17 @@
 #include <cmath>
 #include <vector>
 
+#include "adapters/organ_source.hpp"
+#include "adapters/surface_messages.hpp"
+#include "common/messages/conversions.hpp"
+#include "common/messages/failure_log.hpp"
+#include "common/messages/text.hpp"
 #include "contact_adapter/contact_answer.hpp"
 #include "contact_adapter/force_law.hpp"
-#include "forces/forces.hpp"
 #include "fuzz_input.hpp"
-#include "mesh_adapter/organ_source.hpp"
-#include "mesh_adapter/surface_messages.hpp"
-#include "ros/messages/conversions.hpp"
-#include "ros/messages/failure_log.hpp"
-#include "ros/messages/text.hpp"
-#include "test/ros/queries/query_fixtures.hpp"
-#include "test/ros/tools/hand_made_tools.hpp"
+#include "haptics/forces.hpp"
+#include "test/node/queries/query_fixtures.hpp"
+#include "test/node/tools/hand_made_tools.hpp"
 
 using namespace organ_collision;
 

@@ -9,11 +9,11 @@
 #include <string>
 
 #include "fuzz_input.hpp"
-#include "haptic_proxy/proxy_scene.hpp"
-#include "haptic_proxy/tool_proxy.hpp"
-#include "ros/steps/collision_pipeline.hpp"
+#include "haptics/proxy_scene.hpp"
+#include "haptics/tool_proxy.hpp"
+#include "node/steps/collision_pipeline.hpp"
 #include "test/check_contacts/contact_contract.hpp"
-#include "test/ros/tools/hand_made_tools.hpp"
+#include "test/node/tools/hand_made_tools.hpp"
 
 using namespace organ_collision;
 

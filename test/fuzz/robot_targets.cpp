@@ -10,11 +10,11 @@
 #include <filesystem>
 #include <fstream>
 
+#include "common/messages/robot_reply.hpp"
 #include "fuzz_input.hpp"
-#include "robot_reader/robot_files.hpp"
-#include "robot_reader/robot_model.hpp"
-#include "ros/tools/robot_reply.hpp"
-#include "ros/tools/tool.hpp"
+#include "node/tools/tool.hpp"
+#include "programs/robot_reader/robot_files.hpp"
+#include "programs/robot_reader/robot_model.hpp"
 
 using namespace organ_collision;
 

@@ -1,5 +1,5 @@
 // Which markers snapshot shows, and the triangles that it makes of them.
-#include "snapshot/markers.hpp"
+#include "programs/snapshot/markers.hpp"
 
 #include <gtest/gtest.h>
 

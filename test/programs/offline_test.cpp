@@ -2,8 +2,8 @@
 // query_offline_test.py compares whole runs of the program.
 #include <gtest/gtest.h>
 
-#include "offline/contacts_csv.hpp"
-#include "offline/shapes.hpp"
+#include "programs/query_offline/contacts_csv.hpp"
+#include "programs/query_offline/shapes.hpp"
 #include "temporary_files.hpp"
 
 namespace organ_collision {

@@ -1,5 +1,5 @@
 // The pictures of snapshot: camera, light, hidden and transparent triangles, PNG files.
-#include "snapshot/renderer.hpp"
+#include "programs/snapshot/renderer.hpp"
 
 #include <gtest/gtest.h>
 #include <png.h>
@@ -14,7 +14,7 @@
 #include <stdexcept>
 
 #include "picking/volumes/viewing_volume.hpp"
-#include "snapshot/markers.hpp"
+#include "programs/snapshot/markers.hpp"
 
 namespace organ_collision {
 namespace {

@@ -1,4 +1,4 @@
-#include "robot_reader/robot_files.hpp"
+#include "programs/robot_reader/robot_files.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -11,9 +11,9 @@
 #include <limits>
 #include <utility>
 
+#include "common/messages/robot_reply.hpp"
 #include "organ_collision/geometry/tool/tool_surface.hpp"
-#include "ros/tools/robot_reply.hpp"
-#include "test/ros/tools/tool_files.hpp"
+#include "test/node/tools/tool_files.hpp"
 
 using namespace organ_collision;
 

@@ -1,12 +1,12 @@
-#include "robot_reader/robot_model.hpp"
+#include "programs/robot_reader/robot_model.hpp"
 
 #include <console_bridge/console.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 
-#include "ros/tools/robot_reply.hpp"
-#include "test/ros/tools/tool_files.hpp"
+#include "common/messages/robot_reply.hpp"
+#include "test/node/tools/tool_files.hpp"
 
 using namespace organ_collision;
 using Eigen::Vector3d;

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "offline/user_input.hpp"
+#include "common/program/user_input.hpp"
 
 namespace organ_collision {
 

@@ -1,6 +1,6 @@
 // The texts that query_offline reads, and how programs tell their progress. command_lines_test.py
 // tests the command lines of all programs.
-#include "offline/user_input.hpp"
+#include "common/program/user_input.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <thread>
 
-#include "offline/text_reader.hpp"
+#include "programs/query_offline/text_reader.hpp"
 #include "temporary_files.hpp"
 
 namespace organ_collision {

@@ -1,8 +1,8 @@
-#include "replay/yaml_parameters.hpp"
+#include "programs/replay/yaml_parameters.hpp"
 
 #include <gtest/gtest.h>
 
-#include "ros/tools/robot_reply.hpp"
+#include "common/messages/robot_reply.hpp"
 #include "temporary_files.hpp"
 
 using namespace organ_collision;

@@ -65,7 +65,7 @@ double place_at(const Section& section, double along) {
   return std::clamp((along - section[0].along) / length, 0.0, 1.0);
 }
 
-Vector3d point_at(const Section& section, double place) {
+Vector3d point_on(const Section& section, double place) {
   return section[0].point + place * (section[1].point - section[0].point);
 }
 
@@ -124,7 +124,7 @@ double closing_speed(const Instant& now, const RigidMotion& link, const FaceMoti
   const Vector3d of_core = displacement + link.angle() * link.axis().cross(arm);
   const Triangle velocities = {face.end[0] - face.start[0], face.end[1] - face.start[1],
                                face.end[2] - face.start[2]};
-  return now.normal.dot(of_core - organ_collision::point_at(velocities, now.closest.barycentric));
+  return now.normal.dot(of_core - point_at(velocities, now.closest.barycentric));
 }
 
 /// Predicts, by Newton's method, the time at which a link touches. The next interval of the search
@@ -180,9 +180,9 @@ std::optional<ClosestPoints> triangle_crossing(const Triangle& core, const Trian
   if (begin > end) return std::nullopt;
   const double middle = 0.5 * (begin + end);
   const double place = place_at(b, middle);
-  ClosestPoints common{0.0, 0.0, barycentric_at(b, place), point_at(a, place_at(a, middle)),
+  ClosestPoints common{0.0, 0.0, barycentric_at(b, place), point_on(a, place_at(a, middle)),
                        {},  {}};
-  common.on_face = organ_collision::point_at(face, common.barycentric);
+  common.on_face = point_at(face, common.barycentric);
   common.separation = common.on_face - common.on_core;
   common.distance = common.separation.norm();
   common.steps = 1;

@@ -70,7 +70,7 @@ std::vector<std::uint32_t> compact_order(const std::vector<float>& vertices, std
 
 constexpr std::uint32_t kNone = ~0U;
 
-Eigen::Vector3f vertex(const std::vector<float>& vertices, std::size_t i) {
+Eigen::Vector3f position(const std::vector<float>& vertices, std::size_t i) {
   return Eigen::Map<const Eigen::Vector3f>(&vertices[3 * i]);
 }
 
@@ -85,8 +85,8 @@ bool is_coherent(const std::vector<FaceIndices>& faces, const std::vector<float>
     const std::size_t place = i * count / samples;
     const FaceIndices& face = faces[i * faces.size() / samples];
     const std::size_t next = std::min(place + 1, count - 1);
-    steps += (vertex(vertices, next) - vertex(vertices, place)).norm();
-    edges += (vertex(vertices, face[1]) - vertex(vertices, face[0])).norm();
+    steps += (position(vertices, next) - position(vertices, place)).norm();
+    edges += (position(vertices, face[1]) - position(vertices, face[0])).norm();
   }
   return steps <= kFar * edges;
 }

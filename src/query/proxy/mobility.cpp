@@ -17,14 +17,12 @@ using Eigen::Vector3d;
 /// [m] An axis shorter than this counts as a point without a direction.
 constexpr double kShortestAxis = 1e-9;
 
-Vector3d along(const ShaftAxis& axis) { return axis.tip - axis.trocar; }
-
-bool has_direction(const ShaftAxis& axis) { return along(axis).norm() > kShortestAxis; }
+bool has_direction(const ShaftAxis& axis) { return axis.along().norm() > kShortestAxis; }
 
 /// The smallest rotation that turns one axis into the direction of another.
 Quaterniond turn(const ShaftAxis& from, const ShaftAxis& to) {
   if (!has_direction(from) || !has_direction(to)) return Quaterniond::Identity();
-  return least_rotation(along(from), along(to));
+  return least_rotation(from.along(), to.along());
 }
 
 /// The pose after a rigid motion of the whole tool.
@@ -76,7 +74,7 @@ class TrocarMobility : public Mobility {
       if (has_direction(pose.axis)) {
         const Vector3d arm = contact.point - pose.axis.tip;
         result.head<3>() +=
-            arm.cross(contact.normal).cross(along(pose.axis)) / along(pose.axis).squaredNorm();
+            arm.cross(contact.normal).cross(pose.axis.along()) / pose.axis.along().squaredNorm();
       }
     }
     return result;
@@ -86,7 +84,7 @@ class TrocarMobility : public Mobility {
     for (std::size_t link = 0; link < pose.links.size(); ++link) {
       arm = std::max(arm, farthest(tool_.links[link], pose.links[link], pose.axis.tip));
     }
-    const double length = along(pose.axis).norm();
+    const double length = pose.axis.along().norm();
     return displacement.norm() * (length > kShortestAxis ? 1.0 + arm / length : 1.0);
   }
   Vector3d center(const ToolPose& pose) const override { return pose.axis.tip; }
@@ -116,7 +114,7 @@ class FreeMobility : public Mobility {
   /// from the centre as the tool.
   void measure(const ToolPose& hand) override {
     if (tool_.links.empty()) {
-      extent_ = 0.5 * along(hand.axis).norm() + tool_.radius;
+      extent_ = 0.5 * hand.axis.along().norm() + tool_.radius;
     } else {
       Vector3d sum = Vector3d::Zero();
       std::size_t count = 0;

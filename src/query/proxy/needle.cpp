@@ -15,8 +15,6 @@ constexpr double kPressing = 0.5;
 /// length of the hand's shaft. If it went on, the load at the entry would grow without bound.
 constexpr double kShortestLever = 0.02;
 
-Vector3d along(const ShaftAxis& axis) { return axis.tip - axis.trocar; }
-
 /// [m] A needle pierces a face when the hand's tip is this far ahead of its tip, along the axis.
 double threshold(const ProxySettings& settings) {
   return settings.puncture.value_or(std::numeric_limits<double>::infinity());
@@ -33,7 +31,7 @@ std::optional<Needle> Needle::pierce(const ShaftAxis& proxy, const ShaftAxis& ha
                                      const std::vector<ProxyFace>& contacts,
                                      const std::vector<ProxyOrgan>& organs,
                                      const ProxySettings& settings, Tissue& tissue) {
-  const Vector3d direction = along(proxy).normalized();
+  const Vector3d direction = proxy.along().normalized();
   const double excess = direction.dot(hand.tip - proxy.tip);
   const bool is_pressing = std::any_of(contacts.begin(), contacts.end(), [&](const auto& contact) {
     return presses(contact, direction);
@@ -41,7 +39,7 @@ std::optional<Needle> Needle::pierce(const ShaftAxis& proxy, const ShaftAxis& ha
   if (!is_pressing || !(excess >= threshold(settings))) return std::nullopt;
   const ShaftAxis ahead{proxy.trocar, proxy.tip + excess * direction};
   const std::vector<ProxyCrossing> crossings = tissue.cross(ahead);
-  const double tip = along(proxy).norm() / along(ahead).norm();
+  const double tip = proxy.along().norm() / ahead.along().norm();
   const auto entry = std::find_if(crossings.begin(), crossings.end(),
                                   [&](const ProxyCrossing& found) { return found.shaft >= tip; });
   if (entry == crossings.end()) return std::nullopt;
@@ -57,7 +55,7 @@ Needle::Fate Needle::follow(const ShaftAxis& hand, const std::vector<ProxyOrgan>
   const Vector3d to_entry = entry_.point - hand.trocar;
   const Vector3d direction = to_entry.normalized();
   const double entry = to_entry.norm();
-  if (!(entry > kShortestLever * along(hand).norm())) return Fate::kLost;
+  if (!(entry > kShortestLever * hand.along().norm())) return Fate::kLost;
   const double hand_tip = direction.dot(hand.tip - hand.trocar);
   const double wanted =
       std::clamp(entry + inserted_, hand_tip - settings.friction, hand_tip + settings.friction);
@@ -88,9 +86,9 @@ bool Needle::find_entry(const std::vector<ProxyOrgan>& organs) {
 /// to the tip of axis_, but stops at the first face that it does not pierce.
 double Needle::stop_at_faces(double from, double hand_tip, const ProxySettings& settings,
                              Tissue& tissue) const {
-  const double to = along(axis_).norm();
+  const double to = axis_.along().norm();
   if (!(to > from)) return to;
-  const Vector3d direction = along(axis_) / to;
+  const Vector3d direction = axis_.along() / to;
   const ShaftAxis ahead{axis_.trocar, axis_.tip + settings.clearance * direction};
   const double length = to + settings.clearance;
   for (const ProxyCrossing& found : tissue.cross(ahead)) {
@@ -105,8 +103,8 @@ double Needle::stop_at_faces(double from, double hand_tip, const ProxySettings& 
 }
 
 void Needle::describe(const ShaftAxis& hand, Tissue& tissue) {
-  const double length = along(axis_).norm();
-  const Vector3d direction = along(axis_) / length;
+  const double length = axis_.along().norm();
+  const Vector3d direction = axis_.along() / length;
   entry_.shaft = (entry_.point - axis_.trocar).norm() / length;
   const Vector3d pull = axis_.tip - hand.tip;
   const Vector3d lengthwise = direction.dot(pull) * direction;

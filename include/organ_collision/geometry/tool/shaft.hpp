@@ -11,8 +11,10 @@ struct ShaftAxis {
   Eigen::Vector3d trocar;  ///< where the axis begins
   Eigen::Vector3d tip;     ///< where the axis ends
 
+  /// [m] From trocar to tip.
+  Eigen::Vector3d along() const { return tip - trocar; }
   /// The point of the axis at `place` in [0, 1], from trocar to tip.
-  Eigen::Vector3d at(double place) const { return trocar + place * (tip - trocar); }
+  Eigen::Vector3d at(double place) const { return trocar + place * along(); }
 };
 
 /// How an end of a shaft's axis moves during one leg if a rigid body carries it: on an arc beside

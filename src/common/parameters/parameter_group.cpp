@@ -1,0 +1,273 @@
+#include "parameter_group.hpp"
+
+#include <algorithm>
+#include <boost/algorithm/string/predicate.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+
+#include "common/messages/conversions.hpp"
+#include "common/messages/text.hpp"
+
+namespace organ_collision {
+namespace {
+
+using XmlRpc::XmlRpcValue;
+
+/// Writes a number with 12 digits. With fewer digits, a number that is slightly too large would be
+/// rounded to one that looks legal.
+std::string written(double number) {
+  std::ostringstream text;
+  text.precision(12);
+  text << number;
+  return text.str();
+}
+
+const std::string& text_in(const XmlRpcValue& value) {
+  return static_cast<const std::string&>(value);
+}
+
+std::string written(const NumberRange& range) {
+  const std::string lowest =
+      (range.lowest_is_legal ? "at least " : "more than ") + written(range.lowest);
+  const std::string highest =
+      std::isinf(range.highest) ? "" : ", at most " + written(range.highest);
+  return lowest + highest + (range.infinity_is_legal ? ", or .inf" : "");
+}
+
+std::string written(const XmlRpcValue& value) {
+  std::ostringstream text;
+  value.write(text);
+  return plain_text(text.str(), kLongestMessage);
+}
+
+/// A value of an unexpected type, with its type.
+std::string with_type(const XmlRpcValue& value) {
+  std::string text = "'" + written(value) + "'";
+  switch (value.getType()) {
+    case XmlRpcValue::TypeString:
+      return "the text " + text;
+    case XmlRpcValue::TypeInt:
+    case XmlRpcValue::TypeDouble:
+      return "the number " + text;
+    case XmlRpcValue::TypeBoolean:
+      return static_cast<const bool&>(value) ? "true" : "false";
+    case XmlRpcValue::TypeArray:
+      return "the list " + text;
+    case XmlRpcValue::TypeStruct:
+      return "a group";
+    default:
+      return text;
+  }
+}
+
+/// How YAML 1.1 writes a number that it took for a text, such as 5e-3, 5e3 or '5'. Empty if the
+/// text is no number.
+std::string yaml_number(const std::string& text) {
+  char* end = nullptr;
+  if (boost::iequals(text, "inf") || boost::iequals(text, ".inf")) return ".inf";
+  if (text.empty() || !std::isfinite(std::strtod(text.c_str(), &end)) || *end != '\0') return {};
+  const std::size_t exponent = text.find_first_of("eE");
+  std::string mantissa = text.substr(0, exponent);
+  if (exponent == std::string::npos) return mantissa;
+  if (mantissa.find('.') == std::string::npos) mantissa += ".0";
+  const std::string power = text.substr(exponent + 1);
+  return mantissa + "e" + (power.find_first_of("+-") == 0 ? "" : "+") + power;
+}
+
+/// What to write instead of a value that is no whole number for YAML, such as 2.0, 1e1 or '7'.
+std::string whole_remedy(const XmlRpcValue& value) {
+  double number = 0.5;
+  if (value.getType() == XmlRpcValue::TypeDouble) number = static_cast<const double&>(value);
+  if (value.getType() == XmlRpcValue::TypeString && !yaml_number(text_in(value)).empty()) {
+    number = std::strtod(text_in(value).c_str(), nullptr);
+  }
+  if (number != std::floor(number) || std::abs(number) > 1e9) return {};
+  return ": write " + written(number);
+}
+
+/// What to write instead of a value whose type is not `expected`. Empty if that is not plain.
+std::string remedy(const XmlRpcValue& value, XmlRpcValue::Type expected) {
+  const XmlRpcValue::Type type = value.getType();
+  const bool is_number = type == XmlRpcValue::TypeInt || type == XmlRpcValue::TypeDouble;
+  if (expected == XmlRpcValue::TypeString) {
+    if (is_number) return ": write '" + written(value) + "', in quotes";
+    if (type != XmlRpcValue::TypeBoolean) return {};
+    return ": YAML takes on, yes, off and no for true and false; write the word in quotes";
+  }
+  if (expected == XmlRpcValue::TypeBoolean) {
+    const std::string text = type == XmlRpcValue::TypeString ? text_in(value) : written(value);
+    for (const char* const yes : {"true", "on", "yes", "1"}) {
+      if (boost::iequals(text, yes)) return ": write true without quotes";
+    }
+    for (const char* const no : {"false", "off", "no", "0"}) {
+      if (boost::iequals(text, no)) return ": write false without quotes";
+    }
+    return {};
+  }
+  if (expected == XmlRpcValue::TypeInt) return whole_remedy(value);
+  if (type != XmlRpcValue::TypeString) return {};
+  const std::string number = yaml_number(text_in(value));
+  return number.empty() ? "" : ": write " + number + " without quotes";
+}
+
+bool contains(const NumberRange& range, double number) {
+  if (std::isinf(number)) return range.infinity_is_legal && number > 0.0;
+  return std::isfinite(number) && number <= range.highest &&
+         (range.lowest_is_legal ? number >= range.lowest : number > range.lowest);
+}
+
+}  // namespace
+
+ParameterGroup::ParameterGroup(std::string path, const XmlRpcValue& value,
+                               std::vector<std::string> legal_names)
+    : path_(std::move(path)), value_(value), legal_names_(std::move(legal_names)) {
+  if (value_.getType() == XmlRpcValue::TypeStruct) return;
+  throw ParameterError(path_ + " is '" + written(value_) + "'; must be a group of " +
+                       listed(legal_names_));
+}
+
+bool ParameterGroup::flag(const std::string& name, bool fallback) const {
+  if (!has(name)) return fallback;
+  return static_cast<const bool&>(require(name, XmlRpcValue::TypeBoolean, "must be true or false"));
+}
+
+std::string ParameterGroup::choice(const std::string& name, const std::string& fallback,
+                                   const std::vector<std::string>& legal_values) const {
+  if (!has(name)) return fallback;
+  const std::string legal = "must be one of " + listed(legal_values);
+  // Words in quotes would be refused in turn, unless they are legal.
+  if (value_[name].getType() != XmlRpcValue::TypeString) {
+    throw ParameterError(path_of(name) + " is " + with_type(value_[name]) + "; " + legal);
+  }
+  const std::string& text = text_in(value_[name]);
+  const auto found = std::find(legal_values.begin(), legal_values.end(), text);
+  if (found == legal_values.end()) refuse(name, legal);
+  return text;
+}
+
+double ParameterGroup::number(const std::string& name, std::optional<double> fallback,
+                              const NumberRange& range, bool must_be_whole) const {
+  const std::string legal =
+      (must_be_whole ? "must be a whole number, " : "must be a number, ") + written(range);
+  if (!has(name)) {
+    if (!fallback) refuse_missing(name, legal);
+    return *fallback;
+  }
+  const bool is_whole = must_be_whole || value_[name].getType() == XmlRpcValue::TypeInt;
+  const XmlRpcValue& value =
+      require(name, is_whole ? XmlRpcValue::TypeInt : XmlRpcValue::TypeDouble, legal);
+  const double number =
+      is_whole ? static_cast<const int&>(value) : static_cast<const double&>(value);
+  if (!contains(range, number)) refuse(name, legal);
+  if (number != 0.0 && number < range.least_above_zero) {
+    refuse(name, "must be 0 or at least " + written(range.least_above_zero));
+  }
+  return number;
+}
+
+std::string ParameterGroup::text(const std::string& name) const {
+  const std::string legal = "must be a text that is not empty";
+  std::string text = text_in(require(name, XmlRpcValue::TypeString, legal));
+  if (text.empty()) refuse(name, legal);
+  return text;
+}
+
+std::string ParameterGroup::frame(const std::string& name) const {
+  std::string frame = tf_frame(text(name));
+  if (frame.empty()) refuse(name, "must be the name of a TF frame");
+  check_name(name, frame);
+  return frame;
+}
+
+const XmlRpcValue& ParameterGroup::list(const std::string& name, const std::string& of_what) const {
+  return require(name, XmlRpcValue::TypeArray, "must be a list of " + of_what);
+}
+
+Eigen::Vector3d ParameterGroup::point(const std::string& name) const {
+  constexpr double kFarthest = 2.0;  // [m] With more, they are probably millimetres.
+  const std::string legal = "must be a list of three numbers, each from -2 to 2 [m]";
+  const XmlRpcValue& value = require(name, XmlRpcValue::TypeArray, legal);
+  if (value.size() != 3) refuse(name, legal);
+  Eigen::Vector3d point;
+  for (int i = 0; i < 3; ++i) {
+    const bool is_whole = value[i].getType() == XmlRpcValue::TypeInt;
+    if (!is_whole && value[i].getType() != XmlRpcValue::TypeDouble) {
+      refuse_entry(name, value[i], XmlRpcValue::TypeDouble, legal);
+    }
+    point[i] = is_whole ? static_cast<const int&>(value[i]) : static_cast<const double&>(value[i]);
+    if (!(std::abs(point[i]) <= kFarthest)) refuse(name, legal);
+  }
+  return point;
+}
+
+std::vector<std::string> ParameterGroup::texts(const std::string& name) const {
+  const std::string legal = "must be a list, not empty, of texts that are not empty, each once";
+  const XmlRpcValue& value = require(name, XmlRpcValue::TypeArray, legal);
+  std::vector<std::string> texts;
+  for (int i = 0; i < value.size(); ++i) {
+    if (value[i].getType() != XmlRpcValue::TypeString) {
+      refuse_entry(name, value[i], XmlRpcValue::TypeString, legal);
+    }
+    const std::string& text = text_in(value[i]);
+    const bool is_known = std::find(texts.begin(), texts.end(), text) != texts.end();
+    if (text.empty() || is_known) refuse(name, legal);
+    texts.push_back(text);
+  }
+  if (texts.empty()) refuse(name, legal);
+  return texts;
+}
+
+std::vector<std::string> ParameterGroup::misspelt() const {
+  std::vector<std::string> sentences;
+  for (const auto& [name, value] : value_) {
+    if (std::find(legal_names_.begin(), legal_names_.end(), name) != legal_names_.end()) continue;
+    sentences.push_back(path_of(name) + " is no parameter; nearest is '" +
+                        nearest_name(name, legal_names_) + "', legal are " + listed(legal_names_));
+  }
+  return sentences;
+}
+
+void ParameterGroup::check_name(const std::string& name, const std::string& text) const {
+  const std::string fault = name_fault(text);
+  if (!fault.empty()) refuse(name, fault);
+}
+
+void ParameterGroup::refuse(const std::string& name, const std::string& legal) const {
+  throw ParameterError(path_of(name) + " is '" + written(value_[name]) + "'; " + legal);
+}
+
+void ParameterGroup::refuse_entry(const std::string& name, const XmlRpcValue& entry, Type type,
+                                  const std::string& legal) const {
+  throw ParameterError(path_of(name) + " is '" + written(value_[name]) + "', with " +
+                       with_type(entry) + "; " + legal + remedy(entry, type));
+}
+
+void ParameterGroup::refuse_missing(const std::string& name, const std::string& legal) const {
+  std::string message = path_of(name) + " is missing; " + legal;
+  for (const std::string& sentence : misspelt()) message += " (" + sentence + ")";
+  throw ParameterError(message);
+}
+
+std::string ParameterGroup::path_of(const std::string& name) const {
+  return path_ == "~" ? path_ + name : path_ + "/" + name;
+}
+
+const XmlRpcValue& ParameterGroup::require(const std::string& name, Type type,
+                                           const std::string& legal) const {
+  if (!has(name)) refuse_missing(name, legal);
+  const XmlRpcValue& value = value_[name];
+  if (value.getType() == type) return value;
+  throw ParameterError(path_of(name) + " is " + with_type(value) + "; " + legal +
+                       remedy(value, type));
+}
+
+XmlRpcValue all_parameters(const ros::NodeHandle& private_node) {
+  XmlRpcValue all;
+  if (!private_node.getParam(private_node.getNamespace(), all)) {
+    all.begin();  // Makes it an empty group.
+  }
+  return all;
+}
+
+}  // namespace organ_collision

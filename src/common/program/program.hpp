@@ -1,0 +1,86 @@
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/message_traits.h>
+#include <ros/node_handle.h>
+#include <ros/service_traits.h>
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/parameters/parameter_table.hpp"
+#include "common/threads/queues.hpp"
+
+namespace organ_collision {
+
+/// What --help prints about a ROS program.
+struct ProgramHelp {
+  std::string program;
+  std::string purpose;
+  std::vector<HelpEntry> subscribed = {};
+  std::vector<HelpEntry> published = {};
+  std::vector<HelpEntry> services = {};
+  std::vector<HelpEntry> parameters = {};
+  std::vector<HelpEntry> tool_keys = {};
+  std::string further = {};  ///< how to start the program, or where to read on
+};
+
+/// Prints the help for --help and -h. Prints one line on standard error for any other argument that
+/// is not for ROS, such as NAME:=VALUE is. Returns the exit code, 0 or 2, with which the program
+/// must then end, or std::nullopt if there is no such argument. Call this before ros::init(), so
+/// that the program does not wait for a master.
+std::optional<int> answer_arguments(int argc, char** argv, const ProgramHelp& help);
+
+/// The type of a topic, as --help shows it.
+template <typename Message>
+std::string message_type() {
+  return ros::message_traits::datatype<Message>();
+}
+
+/// The type of a service, as --help shows it.
+template <typename Service>
+std::string service_type() {
+  return ros::service_traits::datatype<Service>();
+}
+
+/// The main function of a node. If there are arguments to answer, it answers them. Otherwise, it
+/// starts ROS, calls `run`, and logs an exception that `run` throws. Returns the exit code. `name`:
+/// the node's default name. `options`: flags of ros::init_options.
+int run_program(int argc, char** argv, const ProgramHelp& help, const std::string& name,
+                const std::function<void(const ros::NodeHandle& node,
+                                         const ros::NodeHandle& private_node)>& run,
+                std::uint32_t options = 0);
+
+/// Protects this process from a call `paramUpdate` whose parameter has an illegal name: roscpp
+/// throws InvalidNameException in its XML-RPC thread, where nobody catches it, and the process
+/// ends. From now on, the caller gets a fault. To be called after ros::init(). run_program() calls
+/// it.
+void guard_parameter_updates();
+
+/// What a node publishes on /diagnostics: the tasks that its parts add, and whether the ROS master
+/// still lists this process. A restarted master does not list it, because roscpp does not register
+/// again. The master is asked once a second, in a thread of its own.
+class Diagnostics {
+ public:
+  /// `period_sec`: the wall time between two messages. They are published in the thread that calls
+  /// the callbacks of `private_node`.
+  Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, double period_sec);
+
+  diagnostic_updater::Updater& updater() { return updater_; }
+
+ private:
+  enum class Master { kListsNode, kDoesNotAnswer, kForgotNode };
+  void ask_master();
+  void diagnose_master(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+
+  diagnostic_updater::Updater updater_;
+  std::atomic<Master> master_{Master::kListsNode};
+  QueueThread asking_;
+  ros::WallTimer publish_, ask_;
+};
+
+}  // namespace organ_collision

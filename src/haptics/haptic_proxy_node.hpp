@@ -1,0 +1,96 @@
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "node/markers/marker_publisher.hpp"
+#include "node/motion/tool_poses.hpp"
+#include "node/node_core.hpp"
+#include "node/publishing/diagnostics.hpp"
+#include "node/steps/collision_pipeline.hpp"
+#include "organ_interpolation.hpp"
+#include "proxy_publisher.hpp"
+#include "proxy_scene.hpp"
+#include "tool_proxy.hpp"
+
+namespace organ_collision {
+
+/// The node haptic_proxy. It moves one proxy for each tool, against all organs. It has the same
+/// Inbox for messages as the collision node. Each pose of a hand causes one tick of its proxy,
+/// unless the node lags behind. Poses on TF are looked up after each batch of messages. While a
+/// force fades or rises, the node makes more ticks with the last pose. One thread does all this
+/// (node_core.hpp) and owns the GL contexts. The background thread inspects surfaces, and loads new
+/// tools and parameters.
+class HapticProxyNode {
+ public:
+  /// Throws ParameterError and GlError. The same thread must call run().
+  HapticProxyNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
+  ~HapticProxyNode() { core_.end(); }
+
+  /// Works until ROS shuts down or `stop` returns true. Throws an exception that the node cannot
+  /// recover from, such as std::bad_alloc. Before it returns or throws, forces fade and NO_ANSWER
+  /// is published for each tool that has a proxy, if ROS still works.
+  void run(const std::function<bool()>& stop = [] { return false; });
+
+ private:
+  using Core = NodeCore<HapticProxyParameters>;
+  using Time = ToolProxy::Time;
+
+  /// A tool's proxy, and what the node knows of its hand.
+  struct Hand {
+    std::unique_ptr<ToolProxy> proxy = {};  ///< null: the tool has a fault
+    ros::Time stamp = {};  ///< of the last pose; zero: the pose is valid at any time
+    /// ProxyScene::stamps at the last look at the organs. Empty: there was no ProxyScene then.
+    std::optional<std::vector<ros::Time>> organs = {};
+    std::optional<Time> heard = {};         ///< when the last pose came; empty: none came yet
+    double period_sec = 0.0;                ///< [s] between the last two poses; 0: not known
+    bool is_waiting = false;                ///< a pose came on its topic, and needs a tick
+    bool is_leaving = false;                ///< the hand's tool will be removed or changed soon
+    bool had_answer = false;                ///< there was an answer since the start
+    std::optional<Rejection> why_not = {};  ///< why there is no answer now; empty: there is one
+    Time told = {};                         ///< when something about the hand was last published
+  };
+
+  Core::Callbacks callbacks();
+  void let_go(const std::string& why);
+  void follow_waiting_hands();
+  void follow_hands();
+  void follow_hand(std::size_t tool, Time now);
+  AgeLimits age_limits() const {
+    return {core_.parameters().mesh_timeout_sec, core_.parameters().frame_timeout_sec};
+  }
+  Timed<ToolPose> latest_pose(std::size_t tool) const;
+  ProxyScene scene_at(Time now);
+  bool is_due(std::size_t tool, ros::Time stamp, bool have_organs_moved, Time now);
+  void tick(Hand& hand, const Timed<ToolPose>& pose, const ProxyScene& scene, Time now);
+  std::vector<ProxyView> views() const;
+  void lose(std::size_t tool, const Rejection& why, Time now);
+  std::optional<SteadyTime> next_deadline();
+  std::vector<Hand> make_hands(std::vector<Tool>& tools, const KeptTools& kept);
+  void reset_proxies(const std::string& why);
+  void change_frame(const std::string& before);
+  void let_leaving_hands_fade(const KeptTools& kept);
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  ProxyCounters counters_;
+  Core core_;
+
+  Inbox inbox_;
+  ToolPoses poses_;
+  OrganInterpolation shapes_;
+  ProxyFrame frame_;
+  std::vector<Hand> hands_;    ///< in the order of the tools
+  bool has_new_shape_ = true;  ///< an organ got a new shape since follow_hands()
+  Time started_;
+  std::optional<Time> batch_began_;  ///< when the first message of this batch came
+  ProxyPublisher publisher_;
+  MarkerPublisher markers_;
+};
+
+}  // namespace organ_collision

@@ -1,0 +1,12 @@
+#include <pluginlib/class_list_macros.hpp>
+
+#include "common/program/restarting_nodelet.hpp"
+#include "haptic_proxy_node.hpp"
+
+namespace organ_collision {
+
+using HapticProxyNodelet = RestartingNodelet<HapticProxyNode>;
+
+}  // namespace organ_collision
+
+PLUGINLIB_EXPORT_CLASS(organ_collision::HapticProxyNodelet, nodelet::Nodelet)

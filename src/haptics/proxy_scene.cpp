@@ -1,0 +1,167 @@
+#include "proxy_scene.hpp"
+
+#include <organ_collision/ContactArray.h>
+
+#include <algorithm>
+
+#include "common/messages/text.hpp"
+#include "geometry/concatenate.hpp"
+#include "haptic_proxy_parameters.hpp"
+#include "node/steps/contact_array.hpp"
+#include "organ_collision/ros/names.hpp"
+
+namespace organ_collision {
+namespace {
+
+using Eigen::Vector3d;
+
+/// How long ago the last transform of a frame may have come.
+struct FrameLimit {
+  double seconds;
+  const char* parameter;  ///< the name of the parameter with this limit
+};
+
+FrameLimit frame_limit(const AgeLimits& limits) {
+  const FrameLimit of_meshes{limits.mesh_sec, names::kMeshTimeoutSec};
+  const FrameLimit of_frames{limits.frame_sec, names::kFrameTimeoutSec};
+  if (of_frames.seconds == 0.0) return of_meshes;
+  const bool is_first = of_meshes.seconds > 0.0 && of_meshes.seconds < of_frames.seconds;
+  return is_first ? of_meshes : of_frames;
+}
+
+/// The organ's name for a proxy. When its sender restarts, the organ gets another name, and is
+/// therefore another organ: it does not carry the proxy from the old shape to the new one.
+std::string name_of_history(const DeformableOrgan& organ) {
+  return organ.histories() == 0 ? organ.name() : concatenate(organ.name(), " ", organ.histories());
+}
+
+/// [1] The least lever of a place near the trocar.
+constexpr double kLeastLever = 0.1;
+
+TissueMotion motion_of(const DeformableOrgan& organ, ros::Time now) {
+  const OrganShape& latest = organ.latest();
+  return {latest.moves_from(now), latest.mesh, latest.motion_sec};
+}
+
+/// [m] How far a point of a face has moved with an organ, in the proxy's frame.
+Vector3d way_of(const std::vector<ProxyOrgan>& before, const ProxyOrgan& now, std::uint32_t face,
+                const Vector3d& barycentric) {
+  const auto then = std::find_if(before.begin(), before.end(),
+                                 [&](const auto& organ) { return organ.name == now.name; });
+  if (then == before.end() || then->shape->topology() != now.shape->topology() ||
+      !then->shape->same_faces(*now.shape)) {
+    return Vector3d::Zero();
+  }
+  const auto place = [&](const ProxyOrgan& organ) -> Vector3d {
+    return organ.T_organ_proxy.inverse() * point_at(organ.shape->triangle(face), barycentric);
+  };
+  return place(now) - place(*then);
+}
+
+}  // namespace
+
+Vector3d tissue_velocity(const ProxyScene& scene, std::size_t organ, const FaceContact& contact) {
+  const ProxyOrgan& now = scene.organs[organ];
+  const TissueMotion& motion = scene.motions[organ];
+  Vector3d velocity = Vector3d::Zero();
+  if (motion.shape_before) {
+    velocity += now.T_organ_proxy.linear().transpose() *
+                velocity_between(*motion.shape_before, *motion.shape_after, motion.shape_sec,
+                                 contact.face, contact.barycentric);
+  }
+  if (motion.T_before) {
+    const Vector3d before = motion.T_before->inverse() * (now.T_organ_proxy * contact.point);
+    velocity += (contact.point - before) / kVelocitySec;
+  }
+  return velocity;
+}
+
+TissuePush tissue_push(const ProxyScene& scene, const std::vector<ProxyOrgan>& before,
+                       const ProxyAnswer& answer, bool has_levers) {
+  TissuePush push;
+  double sum = 0.0;
+  const auto add = [&](std::size_t organ, const FaceContact& at, const Vector3d& load) {
+    if (load.isZero(0.0)) return;
+    const Vector3d along = load.normalized();
+    const double lever = has_levers && at.link == kShaft ? std::max(at.shaft, kLeastLever) : 1.0;
+    const Vector3d weighted = load / lever;
+    push.way += along.dot(way_of(before, scene.organs[organ], at.face, at.barycentric)) * weighted;
+    push.velocity += along.dot(tissue_velocity(scene, organ, at)) * weighted;
+    sum += load.norm();
+  };
+  for (const ProxyFace& at : answer.contacts) {
+    add(at.organ, at.contact, at.load * at.contact.normal);
+  }
+  for (const ProxyCrossing& at : answer.crossings) {
+    FaceContact place;
+    place.face = at.face;
+    place.barycentric = at.barycentric;
+    place.shaft = at.shaft;
+    place.point = at.point;
+    add(at.organ, place, at.load);
+  }
+  if (sum > 0.0) push = {push.way / sum, push.velocity / sum};
+  return push;
+}
+
+bool ProxyFrame::update(const OrganRegistry& organs) {
+  const auto& all = organs.organs();
+  if (fixed_ || all.empty()) return false;
+  const bool is_used = std::any_of(
+      all.begin(), all.end(), [this](const auto& organ) { return organ.second.frame() == name_; });
+  if (is_used) return false;
+  name_ = all.begin()->second.frame();
+  return true;
+}
+
+Rejection no_organ() {
+  return {ContactArray::NO_MESH, "no organ", "there is no organ; send one on organ_mesh"};
+}
+
+ProxyScene proxy_scene(const OrganRegistry& organs, const TransformBuffer& transforms,
+                       const std::string& frame, const AgeLimits& limits, ros::Time now,
+                       const ShapeOf& shape_of) {
+  if (organs.organs().empty()) throw no_organ();
+  ProxyScene scene{frame, {}, {}};
+  for (const auto& [name, organ] : organs.organs()) {
+    if (is_stale(organ.latest(), now, limits.mesh_sec)) {
+      throw Rejection(ContactArray::STALE_MESH, reason_of(ContactArray::STALE_MESH),
+                      stale_message(name, organ.latest(), now, limits.mesh_sec));
+    }
+    const auto T_organ_proxy = look_up(transforms, organ.frame(), frame, ros::Time(0));
+    if (!T_organ_proxy.found) {
+      throw Rejection(ContactArray::NO_TRANSFORM, reason_of(ContactArray::NO_TRANSFORM),
+                      "organ '" + name + "': " + T_organ_proxy.why_not);
+    }
+    check_age(transforms, organ.frame(), {frame}, limits, now);
+    check_age(transforms, frame, {organ.frame()}, limits, now);
+    scene.stamps.push_back(T_organ_proxy.found->stamp);
+    scene.organs.push_back({name_of_history(organ), shape_of(organ), organ.latest().topology(),
+                            T_organ_proxy.found->value});
+    scene.sources.push_back(&organ);
+    TissueMotion& motion = scene.motions.emplace_back(motion_of(organ, now));
+    const ros::Time stamp = T_organ_proxy.found->stamp;
+    if (stamp.toSec() > kVelocitySec && transforms.goes_on(organ.frame(), {frame}, stamp, now)) {
+      const ros::Time before = stamp - ros::Duration(kVelocitySec);
+      const auto T_before = look_up(transforms, organ.frame(), frame, before);
+      if (T_before.found) motion.T_before = T_before.found->value;
+    }
+  }
+  return scene;
+}
+
+void check_age(const TransformBuffer& transforms, const std::string& frame,
+               const TransformBuffer::Frames& others, const AgeLimits& limits, ros::Time now) {
+  const FrameLimit limit = frame_limit(limits);
+  if (!(limit.seconds > 0.0)) return;
+  const auto last = transforms.oldest_transform(frame, others);
+  if (!last) return;
+  const double age = now.toSec() - last->received.toSec();
+  if (!(age > limit.seconds)) return;
+  throw Rejection(
+      ContactArray::STALE_MESH, "stale frame",
+      concatenate("the last transform of frame '", last->frame, "' came ", duration_text(age),
+                  " ago; at most ", limit.seconds, " s are allowed (", limit.parameter, ")"));
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,115 @@
+#pragma once
+
+#include <atomic>
+#include <deque>
+#include <functional>
+#include <map>
+
+#include "common/threads/queues.hpp"
+#include "markers.hpp"
+#include "node/organs/organ_registry.hpp"
+
+namespace organ_collision {
+
+/// The most faces in one marker. A large surface consists of several markers, because a large
+/// message would block others for long: it occupies the socket, and roscpp holds its lock of all
+/// topics while it writes a message into bytes.
+inline constexpr std::size_t kFacesPerMarker = 2048;
+/// A surface of this many faces is sent at most once a second, and a larger one less often,
+/// whatever `surface_rate` is.
+inline constexpr double kFacesPerSecond = 1e6;
+/// [s] A surface that rests is sent again after this time, for viewers that could not place it
+/// before. Large surfaces wait longer.
+inline constexpr double kRefreshSec = 2.0;
+
+/// Draws scenes as markers. Remembers what it drew, so that it deletes what is gone, sends surfaces
+/// only when they changed, and lets traces of recent steps fade.
+class MarkerPainter {
+ public:
+  using Publish = std::function<void(const visualization_msgs::MarkerArrayConstPtr&)>;
+
+  /// Publishes the markers of a scene: an array for each marker of a surface that is due, and then
+  /// an array with all other markers. The scene must be later than the one before.
+  void paint(const Scene& scene, const Publish& publish);
+
+ private:
+  /// A surface that was sent.
+  struct Surface {
+    SteadyTime sent;
+    std::shared_ptr<const TriangleMesh> mesh;
+    std::string frame;
+  };
+
+  void start_anew(const Scene& scene, const Publish& publish);
+  void remember(const Scene& scene);
+  void paint_surfaces(const Scene& scene, const Publish& publish);
+  bool is_due(const Scene& scene, const SceneOrgan& organ) const;
+  void add_tools(const Scene& scene, visualization_msgs::MarkerArray& picture) const;
+  void add_touched(const Scene& scene, const SceneOrgan& organ,
+                   visualization_msgs::MarkerArray& picture) const;
+  const SceneStep* fading_step(const Scene& scene, const SceneOrgan& organ,
+                               const ScenePair& pair) const;
+  void add_answer(const Scene& scene, const SceneOrgan& organ, const ScenePair& pair,
+                  const SceneStep* fading, visualization_msgs::MarkerArray& picture) const;
+  void delete_rest(const Scene& scene, visualization_msgs::MarkerArray& picture);
+
+  std::map<std::string, Surface> surfaces_;  ///< by the organ's name
+  /// The markers that subscribers have: the frame of each, by namespace and id. RViz ignores a
+  /// DELETE without a frame.
+  std::map<std::pair<std::string, int>, std::string> shown_;
+  std::deque<SceneStep> trail_;  ///< the recent steps, which fade
+
+  // The mean time of the queries within about a second. It changes only once a second, so that
+  // people can read it.
+  SteadyTime mean_since_;
+  double query_sec_sum_ = 0.0;
+  std::size_t query_count_ = 0;
+  double mean_query_sec_ = 0.0;
+};
+
+/// The topic of a node's markers. The node's thread only notes what there is to see. A thread of
+/// lower priority draws it, so that the node's thread does not wait. Without subscribers, both
+/// threads do nothing.
+///
+/// Only one thread may call these functions: the node's.
+class MarkerPublisher {
+ public:
+  using Views = std::function<std::vector<ProxyView>()>;
+
+  MarkerPublisher(ros::NodeHandle private_node, const MarkerSettings& settings,
+                  const std::vector<Tool>& tools = {});
+
+  /// Takes effect with the next picture, which is due as soon as the last one is finished.
+  void set_settings(const MarkerSettings& settings);
+  void set_tools(const std::vector<Tool>& tools);
+  /// Notes a step: its contacts and its path leave traces in the next pictures.
+  void add(const ToolStep& step);
+
+  // These draw a picture if one is due: there is a subscriber, the last picture is finished, and it
+  // is time for the next one. If markers are switched off, an empty picture is due now and then.
+
+  /// What the collision node has to show: organs, tools and answers.
+  void update(const OrganRegistry& organs, const StepHistory& history);
+  /// What haptic_proxy has to show: hands, proxies and organs. `views` makes a view of each proxy.
+  /// It is called only if a picture is due. The `size` of each view is set here.
+  void update(const OrganRegistry& organs, const Views& views);
+
+ private:
+  bool is_switched_off() const { return settings_.markers_rate_hz == 0.0; }
+  std::optional<Scene> next_scene(const OrganRegistry& organs);
+  void draw(Scene scene);
+
+  MarkerSettings settings_;
+  std::shared_ptr<const std::vector<Tool>> tools_;
+  std::vector<SceneStep> steps_;  ///< the steps since the last picture
+  int subscribers_ = 0;
+  bool anew_ = false;  ///< a subscriber has come that has received nothing yet
+  SteadyTime due_;
+  ros::Publisher markers_;
+
+  MarkerPainter painter_;  ///< used by the drawing thread only
+  std::atomic<bool> is_drawing_{false};
+  QueueThread thread_;
+};
+
+}  // namespace organ_collision

@@ -1,0 +1,333 @@
+#include <tf2_eigen/tf2_eigen.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include "common/messages/text.hpp"
+#include "geometry/tool/least_rotation.hpp"
+#include "markers.hpp"
+#include "query/step.hpp"
+
+namespace organ_collision {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using visualization_msgs::Marker;
+using visualization_msgs::MarkerArray;
+
+namespace colours {
+
+std_msgs::ColorRGBA depth(double share) {
+  static const std::array<std_msgs::ColorRGBA, 5> stops{
+      rgba(1.00F, 0.93F, 0.20F), rgba(1.00F, 0.60F, 0.10F), rgba(0.95F, 0.25F, 0.35F),
+      rgba(0.65F, 0.05F, 0.60F), rgba(0.20F, 0.02F, 0.45F)};
+  const double place = std::clamp(share, 0.0, 1.0) * (stops.size() - 1);
+  const std::size_t lower = std::min<std::size_t>(place, stops.size() - 2);
+  const auto part = static_cast<float>(place - lower);
+  const auto &from = stops[lower], &to = stops[lower + 1];
+  return rgba(from.r + part * (to.r - from.r), from.g + part * (to.g - from.g),
+              from.b + part * (to.b - from.b));
+}
+
+std_msgs::ColorRGBA proxy(ProxyStatus state) {
+  static const std_msgs::ColorRGBA colours[] = {kFailure, kText, rgba(0.30F, 0.95F, 0.50F),
+                                                rgba(1.00F, 0.65F, 0.10F),
+                                                rgba(0.80F, 0.50F, 1.00F)};
+  return colours[static_cast<std::size_t>(state)];
+}
+
+std_msgs::ColorRGBA faded(std_msgs::ColorRGBA colour, double share) {
+  colour.a *= static_cast<float>(share);
+  return colour;
+}
+
+}  // namespace colours
+
+double visibility(SteadyTime time, SteadyTime now) {
+  const double age = std::chrono::duration<double>(now - time).count();
+  return std::clamp(1.0 - age / kFadeSec, 0.0, 1.0);
+}
+
+Marker make_marker(const MarkerStyle& style, int type) {
+  Marker marker;
+  marker.header.frame_id = style.frame;
+  marker.ns = style.name_space;
+  marker.type = type;
+  marker.frame_locked = true;
+  marker.pose.orientation.w = 1.0;
+  marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
+  marker.color = style.colour;
+  return marker;
+}
+
+void add_point(Marker& list, const Vector3d& point) { list.points.push_back(tf2::toMsg(point)); }
+
+void add_triangle(Marker& list, const Triangle& corners, const std_msgs::ColorRGBA& colour) {
+  for (const Vector3d& corner : corners) {
+    add_point(list, corner);
+    list.colors.push_back(colour);
+  }
+}
+
+void add_lifted_face(Marker& list, const SceneOrgan& organ, std::size_t face,
+                     const std_msgs::ColorRGBA& colour) {
+  constexpr double kLift = 1e-3;  // The distance from the surface, as a share of the organ's size.
+  const Triangle corners = organ.mesh->triangle(face);
+  const Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+  for (const double lift : {kLift * organ.size(), -kLift * organ.size()}) {
+    const Vector3d shift = lift * normal;
+    add_triangle(list, {corners[0] + shift, corners[1] + shift, corners[2] + shift}, colour);
+  }
+}
+
+void add_marker(Marker marker, MarkerArray& picture) {
+  const bool is_list = marker.type == Marker::TRIANGLE_LIST || marker.type == Marker::LINE_LIST;
+  if (is_list && marker.points.empty()) return;
+  marker.id =
+      static_cast<int>(std::count_if(picture.markers.begin(), picture.markers.end(),
+                                     [&](const Marker& other) { return other.ns == marker.ns; }));
+  picture.markers.push_back(std::move(marker));
+}
+
+Vector3d add_text(const MarkerStyle& style, const Vector3d& place, double size,
+                  const std::string& text, MarkerArray& picture) {
+  constexpr double kHeight = 0.036, kSpacing = 0.054;  // Shares of the size.
+  constexpr std::size_t kLongest = 80;  // [bytes] The window of scripts/view.py shows as much.
+  Vector3d next = place;
+  for (std::size_t begin = 0; begin < text.size();) {
+    std::size_t end = std::min(text.find('\n', begin), text.size());
+    if (end - begin > kLongest) {
+      std::size_t space = text.rfind(' ', begin + kLongest);
+      if (space == std::string::npos || space <= begin) space = text.find(' ', begin);
+      end = std::min(end, space);
+    }
+    Marker marker = make_marker(style, Marker::TEXT_VIEW_FACING);
+    marker.pose.position = tf2::toMsg(next);
+    marker.scale.z = kHeight * size;
+    marker.text = text.substr(begin, end - begin);
+    add_marker(std::move(marker), picture);
+    next.z() -= kSpacing * size;
+    begin = end + 1;
+  }
+  return next;
+}
+
+void add_line(const MarkerStyle& style, const Vector3d& from, const Vector3d& to, double width,
+              MarkerArray& picture) {
+  Marker line = make_marker(style, Marker::LINE_LIST);
+  line.scale.x = width;
+  add_point(line, from);
+  add_point(line, to);
+  add_marker(std::move(line), picture);
+}
+
+void add_arrow(const MarkerStyle& style, const Vector3d& tail, const Vector3d& head,
+               const ArrowShape& shape, MarkerArray& picture) {
+  const double length = (head - tail).norm();
+  if (!(length > 0.0)) return;
+  Marker arrow = make_marker(style, Marker::ARROW);
+  arrow.scale.x = shape.shaft_width * length;
+  arrow.scale.y = shape.head_width * length;
+  arrow.scale.z = shape.head_length * length;
+  add_point(arrow, tail);
+  add_point(arrow, head);
+  add_marker(std::move(arrow), picture);
+}
+
+namespace {
+
+const std_msgs::ColorRGBA kSwept = colours::rgba(0.20F, 0.60F, 1.00F, 0.45F);
+/// The tool at the hand's pose, while tissue holds the proxy back.
+const std_msgs::ColorRGBA kHand = colours::rgba(0.45F, 0.75F, 1.00F, 0.40F);
+/// The force of a proxy on the tissue.
+const std_msgs::ColorRGBA kLoad = colours::rgba(1.00F, 0.80F, 0.15F);
+
+/// A link's mesh with more faces than this is drawn as its bounding box, because the tools are sent
+/// with each picture.
+constexpr std::size_t kMostFacesOfTool = 5000;
+/// The surface that a tool swept is drawn for at most this many legs (doc/theory/geometry.md,
+/// Words). The oldest legs are left out.
+constexpr std::size_t kMostLegs = 2000;
+
+Marker shape(const MarkerStyle& style, int type, const Isometry3d& pose, const Vector3d& scale) {
+  constexpr double kThinnest = 1e-6;  // [m] RViz warns of a scale of 0.
+  Marker marker = make_marker(style, type);
+  marker.pose = tf2::toMsg(pose);
+  marker.scale.x = std::max(kThinnest, scale.x());
+  marker.scale.y = std::max(kThinnest, scale.y());
+  marker.scale.z = std::max(kThinnest, scale.z());
+  return marker;
+}
+
+Marker ball(const MarkerStyle& style, const Vector3d& center, double radius) {
+  return shape(style, Marker::SPHERE, Isometry3d(Eigen::Translation3d(center)),
+               Vector3d::Constant(2.0 * radius));
+}
+
+/// A flat-ended cylinder around an axis.
+Marker cylinder(const MarkerStyle& style, const ShaftAxis& axis, double radius) {
+  const Vector3d along = axis.tip - axis.trocar;
+  Isometry3d pose(Eigen::Translation3d(axis.at(0.5)));
+  if (!along.isZero(0.0)) {
+    pose.rotate(least_rotation(Vector3d::UnitZ(), along));
+  }
+  return shape(style, Marker::CYLINDER, pose, {2.0 * radius, 2.0 * radius, along.norm()});
+}
+
+Marker mesh(const MarkerStyle& style, const Isometry3d& T_frame_link, const ToolSurface& surface) {
+  Marker triangles = shape(style, Marker::TRIANGLE_LIST, T_frame_link, Vector3d::Constant(1.0));
+  for (std::size_t face = 0; face < surface.faces().size(); ++face) {
+    for (const Vector3d& corner : surface.triangle(face)) add_point(triangles, corner);
+  }
+  return triangles;
+}
+
+Marker link_part(const MarkerStyle& style, const Isometry3d& T_frame_link, const LinkPart& part) {
+  if (part.surface && part.surface->faces().size() <= kMostFacesOfTool) {
+    return mesh(style, T_frame_link, *part.surface);
+  }
+  const ConvexCore core = T_frame_link * part.core;
+  if (part.core.is_cylinder()) {
+    return cylinder(style, core.axis(), part.radius + core.rim.col(0).norm());
+  }
+  if (part.core.count == 1) return ball(style, core.points[0], part.radius);
+  Isometry3d T_link_box(Eigen::Translation3d(part.bounds.center));
+  T_link_box.rotate(part.bounds.axes);
+  return shape(style, Marker::CUBE, T_frame_link * T_link_box,
+               2.0 * (part.bounds.half_size + Vector3d::Constant(part.radius)));
+}
+
+/// The longest axis of the box around a part. Its motion is drawn in place of the part's motion.
+ShaftAxis longest_axis(const LinkPart& part) {
+  Eigen::Index longest = 0;
+  part.bounds.half_size.maxCoeff(&longest);
+  const Vector3d half = part.bounds.half_size[longest] * part.bounds.axes.col(longest);
+  return {part.bounds.center - half, part.bounds.center + half};
+}
+
+/// The lines whose motion is drawn for a tool, at a waypoint.
+std::vector<ShaftAxis> lines_of(const Tool& tool, const ToolWaypoint& waypoint) {
+  std::vector<ShaftAxis> lines;
+  if (tool.parameters.has_shaft()) lines.push_back(waypoint.axis);
+  for (std::size_t i = 0; i < std::min(tool.links.size(), waypoint.links.size()); ++i) {
+    for (const LinkPart& part : tool.links[i].parts) {
+      const ShaftAxis axis = longest_axis(part);
+      lines.push_back({waypoint.links[i] * axis.trocar, waypoint.links[i] * axis.tip});
+    }
+  }
+  return lines;
+}
+
+/// Adds the quadrangles that the lines of a tool sweep, without what has no area.
+void add_leg(const Tool& tool, const ToolWaypoint& from, const ToolWaypoint& to,
+             const std_msgs::ColorRGBA& colour, Marker& list) {
+  const std::vector<ShaftAxis> before = lines_of(tool, from), after = lines_of(tool, to);
+  for (std::size_t i = 0; i < std::min(before.size(), after.size()); ++i) {
+    for (const Triangle& half : {Triangle{before[i].trocar, before[i].tip, after[i].tip},
+                                 Triangle{before[i].trocar, after[i].tip, after[i].trocar}}) {
+      const bool has_area = !(half[1] - half[0]).cross(half[2] - half[0]).isZero(0.0);
+      if (has_area) add_triangle(list, half, colour);
+    }
+  }
+}
+
+/// Adds an arrow for each force of the proxy on the tissue. The longest arrow stands for the
+/// greatest force.
+void add_loads(const ProxyView& view, MarkerArray& picture) {
+  constexpr double kLongest = 0.10;                  // A share of the scene's size.
+  std::vector<std::pair<Vector3d, Vector3d>> loads;  // Points, and forces divided by the stiffness.
+  for (const ProxyFace& at : view.answer.contacts) {
+    loads.emplace_back(at.contact.point, at.load * at.contact.normal);
+  }
+  for (const ProxyCrossing& at : view.answer.crossings) loads.emplace_back(at.point, at.load);
+  double greatest = 0.0;
+  for (const auto& [point, force] : loads) greatest = std::max(greatest, force.norm());
+  if (greatest == 0.0) return;
+  for (const auto& [point, force] : loads) {
+    add_arrow({"loads", view.frame, kLoad}, point - kLongest * view.size / greatest * force, point,
+              {}, picture);
+  }
+}
+
+/// The end of the hand's tool that is far from tissue: the trocar of a shaft, else the origin of
+/// the first link. The origin of the frame if there is no hand.
+Vector3d far_end(const ProxyView& view) {
+  if (!view.hand) return Vector3d::Zero();
+  if (view.tool.parameters.has_shaft()) return view.hand->axis.trocar;
+  return view.hand->links.front().translation();
+}
+
+/// For example "probe: TOUCHING, 1.2 N". If there is no answer, for example "probe: NO_ANSWER:
+/// ...", with the reason.
+std::string state_line(const ProxyView& view) {
+  constexpr std::size_t kLongestReason = 100;  // [bytes]
+  const std::string line = view.tool.parameters.name + ": " + name_of(view.answer.state);
+  if (view.answer.state == ProxyStatus::kNoAnswer) {
+    return line + ": " + plain_text(view.answer.message, kLongestReason);
+  }
+  char force[32];
+  std::snprintf(force, sizeof force, ", %.1f N", view.force);
+  return line + force;
+}
+
+}  // namespace
+
+void add_tool(const Tool& tool, const ToolPose& pose, const MarkerStyle& style,
+              MarkerArray& picture) {
+  if (tool.parameters.has_shaft()) {
+    const double radius = tool.parameters.radius;
+    add_marker(cylinder(style, pose.axis, radius), picture);
+    add_marker(ball(style, pose.axis.trocar, radius), picture);
+    add_marker(ball(style, pose.axis.tip, radius), picture);
+  }
+  for (std::size_t i = 0; i < std::min(tool.links.size(), pose.links.size()); ++i) {
+    for (const LinkPart& part : tool.links[i].parts) {
+      add_marker(link_part(style, pose.links[i], part), picture);
+    }
+  }
+}
+
+void add_swept(const Tool& tool, const std::vector<const SceneStep*>& steps,
+               const std::string& frame, SteadyTime now, MarkerArray& picture) {
+  Marker swept = make_marker({"swept", frame, kSwept}, Marker::TRIANGLE_LIST);
+  std::size_t legs = 0;
+  for (auto step = steps.rbegin(); step != steps.rend() && legs < kMostLegs; ++step) {
+    const double share = visibility((*step)->time, now);
+    ToolPath finer;
+    const ToolPath& path = with_subdivided_rotations((*step)->path, finer);
+    for (std::size_t i = path.size(); i-- > 1 && legs < kMostLegs; ++legs) {
+      add_leg(tool, path[i - 1], path[i], colours::faded(kSwept, share), swept);
+    }
+  }
+  add_marker(std::move(swept), picture);
+}
+
+std::string name_of(ProxyStatus state) {
+  static constexpr const char* kNames[] = {"NO_ANSWER", "FREE", "TOUCHING", "SQUEEZED",
+                                           "PUNCTURED"};
+  return kNames[static_cast<std::size_t>(state)];
+}
+
+void add_proxy(const ProxyView& view, MarkerArray& picture) {
+  // Shares of the scene's size.
+  constexpr double kSpringWidth = 6e-3;
+  constexpr double kTextLift = 0.06;  // The distance of the text from the far end of the tool.
+  const ProxyAnswer& answer = view.answer;
+  const std_msgs::ColorRGBA colour = colours::proxy(answer.state);
+  if (view.hand && answer.state != ProxyStatus::kFree) {
+    add_tool(view.tool, *view.hand, {"hand", view.frame, kHand}, picture);
+  }
+  if (answer.state != ProxyStatus::kNoAnswer) {
+    add_tool(view.tool, answer.proxy, {"proxy", view.frame, colours::kTool}, picture);
+    if (!answer.pull.isZero(0.0)) {
+      add_line({"spring", view.frame, colour}, answer.center, answer.center + answer.pull,
+               kSpringWidth * view.size, picture);
+    }
+    add_loads(view, picture);
+  }
+  add_text({"state", view.frame, colour}, far_end(view) + kTextLift * view.size * Vector3d::UnitZ(),
+           view.size, state_line(view), picture);
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,289 @@
+#include "tool_poses.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include "common/messages/conversions.hpp"
+#include "geometry/concatenate.hpp"
+#include "geometry/coordinate_range.hpp"
+
+namespace organ_collision {
+namespace {
+
+/// [poses] The most poses that are read for a step, or samples_max if that is more. For each pose,
+/// TF searches through all later transforms: without a limit, a step of many seconds would take up
+/// to a second.
+constexpr std::size_t kMostRead = 1000;
+
+/// [m] A shorter arm makes no arc that matters.
+constexpr double kNoArm = 1e-12;
+
+/// [ns] Poses that are nearer in time have none in between that is looked up.
+constexpr std::int64_t kShortest = 2000;
+
+std::string link_of(const Tool& tool, std::size_t link, bool is_late) {
+  const std::string joint = is_late ? "" : tool.joints[link];
+  return "link '" + tool.links[link].name + "' of tool '" + tool.parameters.name + "'" +
+         (joint.empty() ? "" : " (is joint '" + joint + "' published?)") + ": ";
+}
+
+bool is_near(const ToolPose& pose) {
+  return is_in_range(pose.axis.trocar) && is_in_range(pose.axis.tip) &&
+         std::all_of(pose.links.begin(), pose.links.end(),
+                     [](const auto& link) { return is_in_range(link.translation()); });
+}
+
+/// [ns] The time between two stamps, in whole nanoseconds, because ros::Duration overflows for
+/// extreme stamps.
+std::int64_t elapsed(ros::Time from, ros::Time to) {
+  return static_cast<std::int64_t>(to.toNSec()) - static_cast<std::int64_t>(from.toNSec());
+}
+
+/// How many samples, one each `spacing_sec`, lie strictly between two times that are `gap_sec`
+/// apart.
+double samples_between(double gap_sec, double spacing_sec) {
+  return std::max(0.0, std::ceil(gap_sec / spacing_sec - 1e-6) - 1.0);
+}
+
+/// What carries the point `end` of a frame. TF moves the origin of a frame linearly between two
+/// transforms, and a frame that is fixed to another one moves with that one.
+EndCarrier carrier_of(const TransformBuffer& buffer, const std::string& frame,
+                      const Eigen::Isometry3d& T_organ_frame, const Eigen::Vector3d& end) {
+  const std::string name = buffer.carrier(frame);
+  if (name.empty()) return {};
+  const auto in_carrier = look_up(buffer, name, frame, ros::Time(0));
+  if (!in_carrier.found) return {};
+  const Eigen::Isometry3d T_organ_carrier = T_organ_frame * in_carrier.found->value.inverse();
+  const Eigen::Vector3d arm = end - T_organ_carrier.translation();
+  if (arm.isZero(kNoArm)) return {};
+  return {Eigen::Quaterniond(T_organ_carrier.linear()).normalized(), arm};
+}
+
+}  // namespace
+
+TransformBuffer::Frames swept_frames(const Tool& tool) {
+  const ToolParameters& parameters = tool.parameters;
+  TransformBuffer::Frames frames;
+  if (parameters.has_shaft()) frames = {parameters.trocar_frame, parameters.tip_frame};
+  for (const Link& link : tool.links) frames.push_back(parameters.link_frame(link.name));
+  return frames;
+}
+
+std::size_t ToolPoses::most_read() const {
+  return std::max(kMostRead, static_cast<std::size_t>(sampling_.samples_max));
+}
+
+void ToolPoses::set_answered(const Tool& tool, const std::string& organ_frame, ros::Time time) {
+  buffer_.set_answered(organ_frame, swept_frames(tool), time);
+}
+
+/// The stamps of the received transforms and, where these are further apart than sample_sec, evenly
+/// spaced times between them. Notes in `lost` how many times samples_max has left out, and what is
+/// not known of the motion.
+std::vector<ros::Time> ToolPoses::sample_times(const Tool& tool, const std::string& organ_frame,
+                                               ros::Time from, ros::Time to,
+                                               SampledPath& lost) const {
+  auto [stamps, forgotten] = buffer_.stamps_between(organ_frame, swept_frames(tool), from, to);
+  if (forgotten > from) {
+    lost.unknown = concatenate("the tool's way from ", from, " s to ", std::min(forgotten, to),
+                               " s is not known: it is longer ago than transforms are kept (",
+                               buffer_.getCacheLength().toSec(), " s)");
+  }
+  const std::size_t heard = stamps.size();
+  const std::size_t most = most_read();
+  if (heard > most) {
+    for (std::size_t i = 0; i < most; ++i) stamps[i] = stamps[i * heard / most];
+    stamps.resize(most);
+    lost.samples_cut = heard - most;
+    lost.deviation_cut = std::numeric_limits<double>::infinity();
+    if (lost.unknown.empty()) {
+      lost.unknown = concatenate("of the tool's ", heard, " poses in this step, ", most,
+                                 " were read; steps must be shorter");
+    }
+    return stamps;
+  }
+  stamps.push_back(to);
+  const double spacing =
+      std::max(sampling_.sample_sec, seconds_between(from, to) / sampling_.samples_max);
+  std::vector<ros::Time> times;
+  double wanted = 0.0, sampled = 0.0;
+  for (const ros::Time stamp : stamps) {
+    const double gap = seconds_between(from, stamp);
+    const auto count = static_cast<std::int64_t>(samples_between(gap, spacing));
+    const auto step = static_cast<std::uint64_t>(elapsed(from, stamp) / (count + 1));
+    std::uint64_t time = from.toNSec();
+    for (std::int64_t i = 0; i < count; ++i) times.emplace_back().fromNSec(time += step);
+    times.push_back(stamp);
+    wanted += samples_between(gap, sampling_.sample_sec);
+    sampled += static_cast<double>(count);
+    from = stamp;
+  }
+  times.pop_back();
+  lost.samples_cut = static_cast<std::size_t>(wanted - sampled);
+  return times;
+}
+
+bool ToolPoses::has_pose(const Tool& tool, const std::string& organ_frame, ros::Time time) const {
+  TransformBuffer::Frames frames = swept_frames(tool);
+  if (tool.parameters.has_tip_of_links()) frames.push_back(tool.parameters.tip_frame);
+  const std::optional<ros::Time> until = buffer_.believed_until(organ_frame, frames);
+  if (until && time > *until) return false;
+  try {
+    return std::all_of(frames.begin(), frames.end(), [&](const std::string& frame) {
+      return frame == organ_frame || buffer_.canTransform(organ_frame, frame, time);
+    });
+  } catch (const std::runtime_error&) {  // From ros::Time for extreme stamps.
+    return false;
+  }
+}
+
+Lookup<ToolPose> ToolPoses::pose(const Tool& tool, const std::string& organ_frame, ros::Time time,
+                                 bool with_tip_of_links) const {
+  const ToolParameters& parameters = tool.parameters;
+  ToolPose pose{{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}};
+  ros::Time earliest, latest;  // Zero: all transforms are static.
+  const auto look_up_frame = [&](const std::string& frame) {
+    auto lookup = look_up(buffer_, organ_frame, frame, time);
+    if (!lookup.found || lookup.found->stamp.isZero()) return lookup;
+    earliest = earliest.isZero() ? lookup.found->stamp : std::min(earliest, lookup.found->stamp);
+    latest = std::max(latest, lookup.found->stamp);
+    return lookup;
+  };
+  if (parameters.has_shaft()) {
+    const auto trocar = look_up_frame(parameters.trocar_frame);
+    if (!trocar.found)
+      return {std::nullopt, why_not(parameters, organ_frame, parameters.trocar_frame, trocar)};
+    const auto tip = look_up_frame(parameters.tip_frame);
+    if (!tip.found)
+      return {std::nullopt, why_not(parameters, organ_frame, parameters.tip_frame, tip)};
+    pose.axis = {trocar.found->value * parameters.trocar_offset,
+                 tip.found->value * parameters.tip_offset};
+    pose.carriers = {
+        carrier_of(buffer_, parameters.trocar_frame, trocar.found->value, pose.axis.trocar),
+        carrier_of(buffer_, parameters.tip_frame, tip.found->value, pose.axis.tip)};
+  }
+  pose.links.reserve(tool.links.size());
+  for (std::size_t i = 0; i < tool.links.size(); ++i) {
+    const std::string frame = parameters.link_frame(tool.links[i].name);
+    const auto link = look_up_frame(frame);
+    if (!link.found) {
+      return {std::nullopt,
+              why_not(parameters, organ_frame, frame, link, link_of(tool, i, link.is_late))};
+    }
+    pose.links.push_back(link.found->value);
+  }
+  if (with_tip_of_links && parameters.has_tip_of_links()) {
+    const auto tip = look_up_frame(parameters.tip_frame);
+    if (!tip.found) {
+      return {std::nullopt, why_not(parameters, organ_frame, parameters.tip_frame, tip,
+                                    "tip of tool '" + parameters.name + "': ")};
+    }
+    pose.tip = tip.found->value * parameters.tip_offset;
+  }
+  // For time zero, each frame was looked up at its own latest time. All poses must be of the same
+  // time, so they are looked up again at the earliest of these times.
+  if (earliest != latest) return this->pose(tool, organ_frame, earliest, with_tip_of_links);
+  return {{{std::move(pose), earliest}}, ""};
+}
+
+ToolPose ToolPoses::pose_before(const Tool& tool, const std::string& organ_frame,
+                                const Timed<ToolPose>& end, ros::Time now) const {
+  const bool moves = end.stamp.toSec() > kVelocitySec &&
+                     buffer_.goes_on(organ_frame, swept_frames(tool), end.stamp, now);
+  if (!moves) return end.value;
+  auto before = pose(tool, organ_frame, end.stamp - ros::Duration(kVelocitySec), false);
+  return before.found ? std::move(before.found->value) : end.value;
+}
+
+bool ToolPoses::is_nearly_forgotten(const Tool& tool, const std::string& organ_frame,
+                                    ros::Time from, ros::Time to) const {
+  return seconds_between(from, to) >= longest_step().toSec() ||
+         buffer_.stamps_between(organ_frame, swept_frames(tool), from, to).rising.size() >=
+             kMostRead / 2;
+}
+
+bool ToolPoses::is_disproved(const Tool& tool, const std::string& organ_frame,
+                             ros::Time stamp) const {
+  const auto until = buffer_.believed_until(organ_frame, swept_frames(tool));
+  return until && stamp.toSec() > until->toSec() + kClockTolerance;
+}
+
+std::string ToolPoses::why_not(const ToolParameters& tool, const std::string& organ_frame,
+                               const std::string& frame, const Lookup<Eigen::Isometry3d>& lookup,
+                               const std::string& what) const {
+  const std::string &topic = tool.tip_pose_topic, &tip = tool.tip_frame;
+  if (!topic.empty()) {
+    const std::string refusal = buffer_.refusal(tip);
+    if (!refusal.empty()) return "the last pose on " + topic + " " + refusal;
+    if (!buffer_.has_heard(tip)) return "no pose came on " + topic;
+  }
+  if (lookup.unknown_frame == organ_frame) {
+    return lookup.why_not + "; it is the frame of the organ or of the node, not of the tool";
+  }
+  std::string why = what + lookup.why_not;
+  if (topic.empty() || !lookup.is_late) return why;
+  const auto oldest = buffer_.oldest_transform(frame, {organ_frame});
+  const auto of_organ = buffer_.oldest_transform(organ_frame, {frame});
+  if (!oldest || oldest->frame != tip) return why;
+  if (of_organ && of_organ->received < oldest->received) return why;
+  const auto rate = buffer_.rate(tip);
+  return concatenate(
+      why, ": poses on ", topic,
+      rate ? concatenate(" came at ", std::round(10.0 * *rate) / 10.0, " Hz") : " come seldom",
+      "; see 'Send poses also while nothing moves' in doc/tools.md");
+}
+
+SampledPath ToolPoses::path(const Tool& tool, const std::string& organ_frame,
+                            const Timed<ToolPose>& from, const Timed<ToolPose>& to) const {
+  const auto duration = static_cast<double>(elapsed(from.stamp, to.stamp));
+  PathBuilder path(tool.links, from.value);
+  SampledPath sampled;
+  std::size_t more = most_read();
+  Timed<ToolPose> last = from;
+  // Adds a sample, and before it as many others as are needed to follow a bent motion.
+  const auto add = [&](const Timed<ToolPose>& sample) {
+    std::vector<Timed<ToolPose>> ahead = {sample};
+    while (!ahead.empty()) {
+      const Timed<ToolPose>& next = ahead.back();
+      const std::int64_t gap = elapsed(last.stamp, next.stamp);
+      if (more > 0 && gap > kShortest && path.is_far(last.value, next.value)) {
+        ros::Time half_way;
+        half_way.fromNSec(last.stamp.toNSec() + static_cast<std::uint64_t>(gap / 2));
+        auto between = pose(tool, organ_frame, half_way, false);
+        if (between.found && is_near(between.found->value) &&
+            path.is_bent(last.value, between.found->value, next.value)) {
+          --more;
+          ahead.push_back(*std::move(between.found));
+          continue;
+        }
+      }
+      const auto passed = static_cast<double>(elapsed(from.stamp, next.stamp));
+      path.add(next.stamp == to.stamp ? 1.0 : passed / duration, next.value);
+      last = std::move(ahead.back());
+      ahead.pop_back();
+    }
+  };
+  for (const ros::Time time : sample_times(tool, organ_frame, from.stamp, to.stamp, sampled)) {
+    // A sample that is too far away to be evaluated must not make the whole step fail.
+    const auto between = pose(tool, organ_frame, time, false);
+    if (between.found && is_near(between.found->value)) {
+      add({between.found->value, time});
+    } else if (sampled.unknown.empty()) {
+      sampled.unknown =
+          concatenate("the tool's pose at ", time, " s is not known: ",
+                      between.found ? "it is too far away to be evaluated" : between.why_not);
+    }
+  }
+  add(to);
+  SampledPath built = path.take(static_cast<std::size_t>(sampling_.samples_max));
+  sampled.path = std::move(built.path);
+  sampled.samples_cut += built.samples_cut;
+  sampled.deviation_cut = std::max(sampled.deviation_cut, built.deviation_cut);
+  if (sampled.unknown.empty()) sampled.unknown = std::move(built.unknown);
+  return sampled;
+}
+
+}  // namespace organ_collision

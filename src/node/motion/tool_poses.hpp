@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "node/parameters/node_parameters.hpp"
+#include "node/tools/tool.hpp"
+#include "path_builder.hpp"
+#include "transform_buffer.hpp"
+
+namespace organ_collision {
+
+/// How densely the motion of tools is sampled from TF.
+struct PathSampling {
+  double sample_sec;
+  int samples_max;  ///< most samples in one step, with its end
+};
+
+/// The frames that determine the poses of the shaft and the links, which are what is swept.
+TransformBuffer::Frames swept_frames(const Tool& tool);
+
+/// The poses of tools in the frame of an organ, from TF.
+class ToolPoses {
+ public:
+  /// `buffer` must outlive this.
+  ToolPoses(TransformBuffer& buffer, const PathSampling& sampling)
+      : buffer_(buffer), sampling_(sampling) {}
+
+  /// The pose of a tool at a time. Time zero means the latest time at which all frames of the tool
+  /// are known. `with_tip_of_links`: not needed for samples of a motion, because that tip is not
+  /// swept.
+  Lookup<ToolPose> pose(const Tool& tool, const std::string& organ_frame, ros::Time time,
+                        bool with_tip_of_links = true) const;
+
+  /// The pose from which the tool has come within kVelocitySec with a constant velocity, which it
+  /// has at its pose `end`. It is `end` if the tool rests: no earlier pose is known, or newer
+  /// transforms are overdue (TransformBuffer::goes_on()).
+  ToolPose pose_before(const Tool& tool, const std::string& organ_frame, const Timed<ToolPose>& end,
+                       ros::Time now) const;
+
+  /// Whether TF has all frames of the tool at a time. Costs a thirtieth of a pose() that is not
+  /// found, because no error is put into words.
+  bool has_pose(const Tool& tool, const std::string& organ_frame, ros::Time time) const;
+
+  /// The path from one known pose to another. It is sampled at each stamp that TF received between
+  /// the two poses and, where stamps are further apart than sample_sec, also between them. Where
+  /// the motion is bent, it is sampled more densely, until the poses half way between samples are
+  /// within 1e-6 m of the path. Samples that TF cannot give are dropped. PathBuilder drops
+  /// redundant samples, and reduces the others to samples_max. At most max(1000, samples_max) of
+  /// the stamps are read, evenly spread. If there are more stamps, or if TF has forgotten some, a
+  /// part of the path is unknown.
+  SampledPath path(const Tool& tool, const std::string& organ_frame, const Timed<ToolPose>& from,
+                   const Timed<ToolPose>& to) const;
+
+  /// Whether a step from `from` should end at `to`, so that no part of its path is unknown: the
+  /// step is as long as longest_step(), or has half as many poses as path() reads.
+  bool is_nearly_forgotten(const Tool& tool, const std::string& organ_frame, ros::Time from,
+                           ros::Time to) const;
+  /// Half of the time for which TF keeps transforms. If a step went on for longer, TF would soon
+  /// forget where the tool was at its beginning.
+  ros::Duration longest_step() const { return buffer_.getCacheLength() * 0.5; }
+  /// Whether a step that ended at `stamp` used transforms that are not believed any more
+  /// (TransformBuffer::believed_until).
+  bool is_disproved(const Tool& tool, const std::string& organ_frame, ros::Time stamp) const;
+
+  /// Notes that a step of the tool up to `time` was answered. Transforms that come later but belong
+  /// to that step are counted as late.
+  void set_answered(const Tool& tool, const std::string& organ_frame, ros::Time time);
+
+ private:
+  /// The most stamps that are read for a step, and the most poses that are added between them.
+  std::size_t most_read() const;
+  /// Why a tool's pose is not known, if `lookup` of `frame` found nothing. `what`: what was looked
+  /// up, put before the reason unless the organ's frame is missing. If no message ever came on the
+  /// tool's pose topic, or the last one was refused, this is the reason.
+  std::string why_not(const ToolParameters& tool, const std::string& organ_frame,
+                      const std::string& frame, const Lookup<Eigen::Isometry3d>& lookup,
+                      const std::string& what = "") const;
+  std::vector<ros::Time> sample_times(const Tool& tool, const std::string& organ_frame,
+                                      ros::Time from, ros::Time to, SampledPath& lost) const;
+
+  TransformBuffer& buffer_;
+  PathSampling sampling_;
+};
+
+}  // namespace organ_collision

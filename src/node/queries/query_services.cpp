@@ -1,0 +1,242 @@
+#include "query_services.hpp"
+
+#include <ros/serialization.h>
+
+#include <algorithm>
+
+#include "common/messages/checked_messages.hpp"
+#include "common/messages/text.hpp"
+#include "organ_collision/ros/names.hpp"
+#include "query_request.hpp"
+
+namespace organ_collision {
+namespace {
+
+/// Also releases the memory of the results, because the batch may have failed for lack of memory.
+void set_failure(QueryCollisionBatch::Response& response, std::uint8_t status,
+                 const std::string& message) {
+  response.results = {};
+  response.organs = {};
+  response.status = status;
+  response.message = plain_text(message, kLongestMessage);
+}
+
+/// An answer about what the request asks, before anything else is known.
+ContactArray unanswered(const QueryCollision::Request& request) {
+  const ros::Time stamp = request.header.stamp;
+  return answer_about(request.organ, request.tool, request.mode,
+                      stamp.isZero() ? ros::Time::now() : stamp);
+}
+
+void check_names(const QueryCollision::Request& request, bool in_tf) {
+  check_name("tool", request.tool);
+  check_name("organ", request.organ);
+  if (!in_tf) check_name("header.frame_id", tf_frame(request.header.frame_id));
+}
+
+/// Whether a single query gives this motion: an empty message gives none. In a batch, each motion
+/// in the lists counts as given.
+bool is_given(const ToolMotion& motion) { return motion != ToolMotion(); }
+bool is_given(const LinkMotion& motion) {
+  return !motion.previous.empty() || !motion.links.empty();
+}
+
+/// Runs `function`, which sets `answer`. If it throws, the exception becomes a failure of `answer`.
+template <typename Answer, typename Function>
+void or_failure(Answer& answer, const Function& function) {
+  try {
+    function();
+  } catch (const Rejection& rejection) {
+    set_failure(answer, rejection.status(), rejection.what());
+  } catch (const std::exception& error) {
+    set_failure(answer, ContactArray::PICKER_FAILED,
+                std::string("the query failed: ") + error.what());
+  }
+}
+
+/// One of the organs of a batch.
+struct BatchOrgan {
+  ContactArray unanswered;
+  QuerySnapshot snapshot;
+  CollisionRequest collision;  ///< without a motion; refers to the snapshot
+};
+
+}  // namespace
+
+QueryServices::QueryServices(const NodeState& node, InNodeThread in_node_thread,
+                             NodeCounters& counters)
+    : node_(node),
+      in_node_thread_(std::move(in_node_thread)),
+      counters_(counters),
+      query_(node.parameters.picker) {}
+
+void QueryServices::advertise(const ros::NodeHandle& query_node,
+                              const ros::NodeHandle& batch_node) {
+  const auto on_query = [this](const auto& request, auto& response) {
+    response.result = query(request);
+    count_failure(counters_.refused, response.result.status, response.result.message);
+    return true;
+  };
+  const auto on_batch = [this](const auto& request, auto& response) {
+    or_failure(response, [&] {
+      start_batches();
+      yield_to_all_threads();  // This thread answers motions, too, and all steps come first.
+    });
+    if (response.status == ContactArray::OK) response = query_batch(request);
+    count_failure(counters_.refused, response.status, response.message);
+    for (const ContactArray& answer : response.results) {
+      count_failure(counters_.refused, answer.status, answer.message);
+    }
+    return true;
+  };
+  servers_ = {advertise_checked<QueryCollision>(query_node, names::kQuery, on_query),
+              advertise_checked<QueryCollisionBatch>(batch_node, names::kQueryBatch, on_batch)};
+}
+
+/// Makes the threads that answer batches, if there are none yet. The calling thread is one of them
+/// and gets a GL context, too.
+void QueryServices::start_batches() {
+  if (batch_threads_) return;
+  // Each thread lowers its priority only when it has made its GL context. To make a context, a
+  // thread holds locks for long that the node's thread may want, too.
+  batch_threads_.emplace(thread_count(node_.parameters.threads), node_.parameters.picker,
+                         yield_to_all_threads);
+}
+
+ContactArray QueryServices::query(const QueryCollision::Request& request) {
+  ContactArray answer = unanswered(request);
+  answer.header.frame_id = plain_text(request.header.frame_id, kLongestName);
+  or_failure(answer, [&] { answer_one(request, answer); });
+  return answer;
+}
+
+void QueryServices::answer_one(const QueryCollision::Request& request, ContactArray& answer) {
+  CollisionRequest collision = checked_request(request);
+  const bool gives_links = is_given(request.link_motion);
+  const bool is_of_tool = !request.tool.empty();
+  if (gives_links && !is_of_tool) {
+    refuse("link_motion is set and tool is empty; must be the name of the tool with these links");
+  }
+  const bool in_tf = is_of_tool && !gives_links;
+  check_names(request, in_tf);
+  if (in_tf && is_given(request.motion)) {
+    refuse("motion is set, and tool '", request.tool,
+           "' moves as in TF; leave motion empty, or ask by query_batch");
+  }
+  QuerySnapshot snapshot = snapshot_of(request, in_tf, answer);
+
+  set_subject(snapshot, request.organ_rests != 0, collision);
+  if (in_tf) {
+    collision.path = std::move(snapshot.path);
+    collision.tip = snapshot.tip;
+  } else {
+    const bool gives_shaft = !is_of_tool || is_given(request.motion);
+    set_motion(
+        {gives_shaft ? &request.motion : nullptr, gives_links ? &request.link_motion : nullptr},
+        snapshot, collision);
+  }
+  const double query_sec = query_.evaluate(collision, answer);
+  set_incomplete(answer, snapshot.unknown);
+  if (answer.status == ContactArray::OK) counters_.service_times.add(query_sec);
+}
+
+QueryCollisionBatch::Response QueryServices::query_batch(const Batch& batch) {
+  QueryCollisionBatch::Response response;
+  or_failure(response, [&] { answer_batch(batch, response); });
+  return response;
+}
+
+void QueryServices::answer_batch(const Batch& batch, QueryCollisionBatch::Response& response) {
+  QueryCollision::Request request = common_request(batch);
+  const CollisionRequest collision = checked_request(request);
+  const std::size_t motions = std::max(batch.motions.size(), batch.link_motions.size());
+  const auto most = static_cast<std::size_t>(node_.parameters.max_batch);
+  if (motions > most) {
+    refuse("the batch has ", motions, " motions; must be at most ", most,
+           " (max_batch): ask in several batches");
+  }
+  check_names(request, false);
+  std::vector<BatchOrgan> organs;
+  in_node_thread_([&] {
+    for (const std::string& organ : asked_organs(node_, batch.organ)) {
+      request.organ = organ;
+      BatchOrgan& asked = organs.emplace_back();
+      asked.unanswered = unanswered(request);
+      asked.collision = collision;
+      asked.snapshot = take_snapshot(node_, request, false, asked.unanswered);
+    }
+  });
+  check_lists(batch, organs.front().snapshot.tool);
+  for (BatchOrgan& organ : organs) {
+    set_subject(organ.snapshot, request.organ_rests != 0, organ.collision);
+  }
+
+  const auto answer_motion = [&](std::size_t motion, ContactQuery& query) {
+    const GivenMotion given{batch.motions.empty() ? nullptr : &batch.motions[motion],
+                            batch.link_motions.empty() ? nullptr : &batch.link_motions[motion]};
+    std::vector<ContactArray> answers;
+    for (const BatchOrgan& organ : organs) {
+      CollisionRequest moving = organ.collision;
+      ContactArray& answer = answers.emplace_back(organ.unanswered);
+      try {
+        set_motion(given, organ.snapshot, moving);
+        query.evaluate(moving, answer);
+      } catch (const Rejection& rejection) {
+        set_failure(answer, rejection.status(), rejection.what());
+      }
+    }
+    return answers;
+  };
+  for (const BatchOrgan& organ : organs) response.organs.push_back(organ.unanswered.organ);
+  answer_motions(motions, batch.stop_at_first_contact != 0, answer_motion, response);
+}
+
+/// Adds the answers to the motions, which several threads find, to the response.
+void QueryServices::answer_motions(std::size_t motions, bool stops_at_contact,
+                                   const AnswerMotion& answer_motion,
+                                   QueryCollisionBatch::Response& response) {
+  using ros::serialization::serializationLength;
+  start_batches();
+  const auto most_bytes = static_cast<std::size_t>(node_.parameters.max_batch_bytes);
+  const auto touches = [](const ContactArray& answer) { return !answer.contacts.empty(); };
+  const auto is_last = [&](const std::vector<ContactArray>& of_motion) {
+    return stops_at_contact && std::any_of(of_motion.begin(), of_motion.end(), touches);
+  };
+  std::vector<std::vector<ContactArray>> made(motions);
+  std::atomic<std::size_t> bytes_made{0};
+  const auto evaluate = [&](std::size_t worker, std::size_t motion) {
+    if (ended_) throw std::runtime_error("the node is about to end");
+    made[motion] = answer_motion(motion, batch_threads_->query(worker));
+    bytes_made += serializationLength(made[motion]);
+    if (is_last(made[motion]) || bytes_made > most_bytes) batch_threads_->skip_rest();
+  };
+
+  bool has_last = false;
+  std::size_t bytes = serializationLength(response);
+  const auto take = [&](std::size_t motion) {
+    if (has_last) return;
+    std::vector<ContactArray> of_motion = std::exchange(made[motion], {});
+    has_last = is_last(of_motion);
+    for (ContactArray& answer : of_motion) {
+      bytes += serializationLength(answer);
+      response.results.push_back(std::move(answer));
+    }
+    if (bytes > most_bytes) {
+      refuse("the answers to the first ", motion + 1, " of ", motions, " motions have ", bytes,
+             " bytes; a batch's must have at most ", most_bytes,
+             " (max_batch_bytes): ask for fewer motions at once");
+    }
+    ++counters_.motions;
+  };
+  batch_threads_->run(motions, evaluate, take);
+  ++counters_.batches;
+}
+
+QuerySnapshot QueryServices::snapshot_of(const QueryCollision::Request& request, bool in_tf,
+                                         ContactArray& answer) const {
+  QuerySnapshot snapshot;
+  in_node_thread_([&] { snapshot = take_snapshot(node_, request, in_tf, answer); });
+  return snapshot;
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,368 @@
+#include "step_scheduler.hpp"
+
+#include <ros/console.h>
+
+#include <algorithm>
+#include <boost/make_shared.hpp>
+
+#include "common/messages/text.hpp"
+#include "geometry/concatenate.hpp"
+
+namespace organ_collision {
+namespace {
+
+/// Before their first step, the transforms of a tool and an organ may be missing for this long
+/// without a warning: nodes that are started together need so long to start.
+constexpr std::chrono::seconds kStart(2);
+
+/// The node looks once in this time for steps that become too long.
+constexpr std::chrono::milliseconds kLookout(100);
+
+/// Whether the last step already ended at this pose, against this shape.
+bool is_answered(const OrganToolPair& pair, ros::Time pose) {
+  return pair.last && pair.last->mesh == pair.current.mesh && !pose.isZero() &&
+         pose <= pair.last->stamp;
+}
+
+QueryMode mode_of(const OrganToolPair& pair) {
+  return pair.last ? QueryMode::kSwept : QueryMode::kStatic;
+}
+
+}  // namespace
+
+StepWorkers::StepWorkers(const NodeParameters& parameters)
+    : QueryThreads(thread_count(parameters.threads), parameters.picker,
+                   [priority = parameters.realtime.priority] {
+                     // If this is refused, the node's thread was refused, too, and logged it.
+                     if (priority > 0) make_this_thread_realtime(priority);
+                   }) {
+  // Threads start here: if memory is locked, the start of a thread takes milliseconds.
+  start_for(parameters.tools.size());
+}
+
+void StepScheduler::add(const OrganUpdate& update, SteadyTime now) {
+  if (!update.change) return;
+  const std::string& organ = update.message.organ();
+  for (auto pair = history_.begin();
+       update.change != OrganChange::kShape && pair != history_.end();) {
+    pair = pair->first.first == organ ? history_.erase(pair) : std::next(pair);
+  }
+  if (update.change == OrganChange::kRemoved) return;
+  for (std::size_t tool = 0; tool < tools_.size(); ++tool) {
+    std::vector<WaitingShape>& waiting = history_[{organ, tool}].waiting;
+    if (!keeps_all_shapes_ && waiting.size() > 1) {
+      waiting.pop_back();
+      ++counts_.superseded;
+    }
+    waiting.push_back({organs_.at(organ).latest(), now});
+    ++counts_.due;
+  }
+}
+
+void StepScheduler::add_pose(std::size_t tool) {
+  if (std::exchange(tool_is_due_[tool], true)) ++counts_.poses_merged;
+}
+
+void StepScheduler::evaluate(SteadyTime now) {
+  const LoadWatch::Time begin = LoadWatch::Time::clock::now();
+  is_behind_ = load_.is_behind(begin);
+  now_ = now;
+  evaluate_all();
+  load_.add_round(begin, LoadWatch::Time::clock::now(),
+                  counts_.poses_merged + counts_.ticks_merged + counts_.superseded);
+}
+
+void StepScheduler::evaluate_all() {
+  due_.clear();  // If an exception ended the last round, its steps are still there.
+  do {
+    for (auto& [key, pair] : history_) {
+      if (!pair.waiting.empty()) plan_front(organs_.at(key.first), key.second, pair);
+    }
+  } while (evaluate_due());  // Behind an evaluated shape, a newer one may wait.
+  for (std::size_t tool = 0; tool < tool_is_due_.size(); ++tool) {
+    if (!std::exchange(tool_is_due_[tool], false)) continue;
+    for (const auto& [name, organ] : organs_.organs()) plan_latest(organ, tool, true);
+  }
+  evaluate_due();
+  if (std::exchange(tick_is_due_, false)) {
+    for (const auto& [name, organ] : organs_.organs()) {
+      for (std::size_t tool = 0; tool < tools_.size(); ++tool) plan_latest(organ, tool, false);
+    }
+  }
+  evaluate_due();
+  // In a replay, `now_` may go back.
+  if (now_ < next_lookout_ && next_lookout_ - now_ <= kLookout) return;
+  next_lookout_ = now_ + kLookout;
+  plan_long_steps();
+  evaluate_due();
+}
+
+/// Evaluates and publishes the steps that are due. Returns whether there were any.
+bool StepScheduler::evaluate_due() {
+  if (due_.empty()) return false;
+  const auto work = [this](std::size_t worker, std::size_t step) {
+    if (!due_[step].answer) answer(due_[step], workers_.query(worker));
+  };
+  const auto take = [this](std::size_t step) { deliver(due_[step]); };
+  workers_.run(due_.size(), std::ref(work), std::ref(take));  // std::ref() allocates no memory.
+  due_.clear();
+  return true;
+}
+
+StepCounts StepScheduler::counts() const {
+  StepCounts counts = counts_;
+  for (const auto& [key, pair] : history_) counts.waiting += pair.waiting.size();
+  counts.forgotten = counts.due - counts.answered - counts.superseded - counts.waiting;
+  return counts;
+}
+
+/// Plans a step against the first waiting shape, unless it may still wait for its transforms.
+void StepScheduler::plan_front(const DeformableOrgan& organ, std::size_t tool,
+                               OrganToolPair& pair) {
+  WaitingShape& front = pair.waiting.front();
+  const ros::Time stamp = front.shape.stamp;
+  const bool may_wait = now_ < deadline(front);
+  forget_if_disproved(organ, tool, pair);
+  const bool late = pair.last && !stamp.isZero() && stamp <= pair.last->stamp;
+  const bool faulty = !tools_[tool].fault.empty();
+  Lookup<ToolPose> end;
+  if (late) {  // The tool rests at its last pose.
+    end.found = Timed<ToolPose>{pair.last->pose, pair.last->stamp};
+  } else if (!faulty) {
+    if (may_wait && !poses_.has_pose(tools_[tool], organ.frame(), stamp)) return;
+    end = poses_.pose(tools_[tool], organ.frame(), stamp);
+    if (!end.found && may_wait) return;
+  }
+  if (!end.found) {
+    end.why_not += "; waited " + duration_text(parameters_.tf_timeout_sec) + " (tf_timeout_sec)";
+  }
+  pair.current = std::move(front.shape);
+  pair.waiting.erase(pair.waiting.begin());
+  ToolStep step{&organ, tool, &pair};
+  step.is_of_shape = true;
+  plan_step(std::move(step), std::move(end), stamp.isZero() ? ros::Time::now() : stamp);
+}
+
+/// Plans a step against the pair's current shape, with the latest pose. `only_new`: plans no step
+/// if the last one already ended at this pose.
+void StepScheduler::plan_latest(const DeformableOrgan& organ, std::size_t tool, bool only_new) {
+  OrganToolPair& pair = history_[{organ.name(), tool}];
+  if (!pair.current.mesh) return;  // Its first shape still waits for a transform.
+  forget_if_disproved(organ, tool, pair);
+  ToolStep step{&organ, tool, &pair};
+  const ros::Time now = ros::Time::now();
+  const double timeout_sec = parameters_.mesh_timeout_sec;
+  if (tools_[tool].fault.empty() && is_stale(pair.current, now, timeout_sec)) {
+    return plan_failure(std::move(step), now, ContactArray::STALE_MESH,
+                        stale_message(organ.name(), pair.current, now, timeout_sec));
+  }
+  auto end = poses_.pose(tools_[tool], organ.frame(), ros::Time(0));
+  if (only_new && end.found && is_answered(pair, end.found->stamp)) return;
+  plan_step(std::move(step), std::move(end), now);
+}
+
+/// Plans steps for the pairs whose last step was so long ago that TF would soon forget how the tool
+/// moved since then.
+void StepScheduler::plan_long_steps() {
+  const auto longest = std::chrono::nanoseconds(poses_.longest_step().toNSec());
+  for (auto& [key, pair] : history_) {
+    if (!pair.last) continue;
+    const auto& [organ_name, tool] = key;
+    const DeformableOrgan& organ = organs_.at(organ_name);
+    if (!forget_if_disproved(organ, tool, pair)) {
+      if (pair.tried && now_ - *pair.tried < longest) continue;
+      const auto pose = poses_.pose(tools_[tool], organ.frame(), ros::Time(0));
+      if (!pose.found || is_answered(pair, pose.found->stamp)) continue;
+      const ros::Time from = pair.last->stamp, to = pose.found->stamp;
+      const bool is_long =
+          to > from && (now_ - pair.last->taken >= longest ||
+                        poses_.is_nearly_forgotten(tools_[tool], organ.frame(), from, to));
+      if (!is_long) continue;
+      pair.tried = now_;
+    }
+    plan_latest(organ, tool, true);
+  }
+}
+
+/// Forgets the last step of a pair if it ended at a stamp that turned out to be wrong
+/// (ToolPoses::is_disproved()). The next step is then static. Otherwise, the tool would be held at
+/// the pose of that stamp.
+bool StepScheduler::forget_if_disproved(const DeformableOrgan& organ, std::size_t tool,
+                                        OrganToolPair& pair) {
+  if (!pair.last) return false;
+  if (!poses_.is_disproved(tools_[tool], organ.frame(), pair.last->stamp)) return false;
+  ROS_WARN_THROTTLE(
+      1.0,
+      "tool '%s': the last step ended at %f s, ahead of the clock, and then transforms "
+      "came with earlier stamps: the history of the tool is forgotten",
+      tools_[tool].parameters.name.c_str(), pair.last->stamp.toSec());
+  pair.last.reset();
+  return true;
+}
+
+void StepScheduler::change_tools(const KeptTools& kept) {
+  StepHistory old = std::exchange(history_, {});
+  const std::vector<char> was_due = std::exchange(tool_is_due_, std::vector<char>(kept.size()));
+  for (std::size_t tool = 0; tool < kept.size(); ++tool) {
+    tool_is_due_[tool] = !kept[tool] || was_due[*kept[tool]];
+    if (!kept[tool]) begin_with_latest_shapes(tool);
+    for (auto& [key, pair] : old) {
+      if (key.second == kept[tool]) history_[{key.first, tool}] = std::move(pair);
+    }
+  }
+}
+
+void StepScheduler::reset() {
+  for (auto& [key, pair] : history_) {
+    pair.last.reset();
+    pair.answer.reset();
+    pair.current.forget_before();
+    for (WaitingShape& waiting : pair.waiting) waiting.shape.forget_before();
+  }
+}
+
+void StepScheduler::start_anew() {
+  history_.clear();
+  for (std::size_t tool = 0; tool < tools_.size(); ++tool) begin_with_latest_shapes(tool);
+}
+
+void StepScheduler::begin_with_latest_shapes(std::size_t tool) {
+  for (const auto& [name, organ] : organs_.organs()) {
+    history_[{name, tool}].current = organ.latest();
+  }
+}
+
+std::optional<SteadyTime> StepScheduler::next_deadline() const {
+  std::optional<SteadyTime> next;
+  for (const auto& [key, pair] : history_) {
+    if (pair.waiting.empty()) continue;
+    const SteadyTime time = deadline(pair.waiting.front());
+    if (!next || time < *next) next = time;
+  }
+  return next;
+}
+
+/// Plans a step that ends at `end`. If `end` is not newer than the last pose, the tool rests at its
+/// last pose. `failure`: the stamp of the answer if the tool has a fault or no pose.
+void StepScheduler::plan_step(ToolStep step, Lookup<ToolPose> end, ros::Time failure) {
+  OrganToolPair& pair = *step.pair;
+  const std::optional<LastStep>& last = pair.last;
+  const std::string& fault = tools_[step.tool].fault;
+  if (!fault.empty()) {
+    return plan_failure(std::move(step), failure, ContactArray::INVALID_TOOL, fault);
+  }
+  if (!end.found) {
+    if (!pair.first_without_transform) pair.first_without_transform = now_;
+    step.is_starting = !last && now_ - *pair.first_without_transform < kStart;
+    return plan_failure(std::move(step), failure, ContactArray::NO_TRANSFORM, end.why_not);
+  }
+  step.end = std::move(end.found);
+  const bool is_of_now = step.end->stamp.isZero();
+  if (is_of_now) step.end->stamp = std::max(ros::Time::now(), last ? last->stamp : ros::Time());
+  step.moves = last && (is_of_now || step.end->stamp > last->stamp);
+  if (last && !step.moves) step.end = Timed<ToolPose>{last->pose, last->stamp};
+  step.request.surface_topology = pair.current.topology();
+  due_.push_back(std::move(step));
+}
+
+/// Plans a step that fails: its answer says why.
+void StepScheduler::plan_failure(ToolStep step, ros::Time stamp, std::uint8_t status,
+                                 const std::string& message) {
+  begin_answer(step, stamp);
+  set_failure(*step.answer, status, message);
+  due_.push_back(std::move(step));
+}
+
+/// Finds the answer of a step. Several threads call this at the same time for different steps: it
+/// changes only the step. `query` belongs to the calling thread.
+void StepScheduler::answer(ToolStep& step, ContactQuery& query) const {
+  const Tool& tool = tools_[step.tool];
+  const std::optional<LastStep>& last = step.pair->last;
+  const TriangleMesh& mesh = *step.pair->current.mesh;
+  CollisionRequest& request = step.request;
+  request.organ = &mesh;
+  const LastStep* comparable = last && has_same_faces(*last, mesh) ? &*last : nullptr;
+  if (comparable && comparable->mesh.get() != &mesh && parameters_.organ_motion) {
+    request.organ_before = comparable->mesh.get();
+  }
+  request.radius = tool.parameters.radius;
+  request.links = &tool.links;
+  request.mode = mode_of(*step.pair);
+  request.regions = parameters_.publish_regions;
+  request.margin = tool.parameters.margin;
+  request.max_near = static_cast<std::size_t>(tool.parameters.max_near);
+  request.placement = parameters_.publish_placement;
+  request.tip = step.end->value.tip;
+  if (step.moves) {
+    step.sampled = poses_.path(tool, step.organ->frame(), {last->pose, last->stamp}, *step.end);
+    request.path = std::move(step.sampled.path);
+    if (is_behind_ && step.sampled.samples_cut > 0 && step.sampled.unknown.empty()) {
+      step.sampled.unknown = concatenate(
+          step.sampled.samples_cut,
+          " samples of the tool's motion were left out (motion_samples_max), because the node "
+          "falls behind");
+    }
+  } else {
+    request.path = resting_path(step.end->value);
+  }
+  set_velocities(step);
+  begin_answer(step, step.end->stamp);
+  step.query_sec = query.evaluate(request, *step.answer);
+  step.picked = query.picked();
+  set_incomplete(*step.answer, step.sampled.unknown);
+  set_memory(*step.answer, comparable ? comparable->answer.get() : nullptr);
+}
+
+/// Sets from where the velocities of tissue and tool count. A shape that makes its step due, or
+/// after which newer shapes have come, is not overdue.
+void StepScheduler::set_velocities(ToolStep& step) const {
+  const OrganShape& shape = step.pair->current;
+  CollisionRequest& request = step.request;
+  const ros::Time now = ros::Time::now();
+  const bool is_old = step.is_of_shape || shape.mesh != step.organ->latest().mesh;
+  if (parameters_.organ_motion) {
+    request.velocity_from = shape.moves_from(is_old ? shape.received : now).get();
+    request.velocity_sec = shape.motion_sec;
+  }
+  if (!asks_for_clearance(request) || request.mode == QueryMode::kStatic) return;
+  request.pose_before = poses_.pose_before(tools_[step.tool], step.organ->frame(), *step.end, now);
+  request.pose_before_sec = kVelocitySec;
+}
+
+/// Sets an answer whose results are still empty. `end`: its stamp.
+void StepScheduler::begin_answer(ToolStep& step, ros::Time end) const {
+  const ToolParameters& tool = tools_[step.tool].parameters;
+  const OrganToolPair& pair = *step.pair;
+  step.answer = boost::make_shared<ContactArray>(
+      answer_about(step.organ->name(), tool.name, static_cast<std::uint8_t>(mode_of(pair)), end));
+  step.answer->links = tool.links;
+  set_organ(*step.answer, *step.organ, pair.current);
+  if (pair.last) step.answer->step_start = pair.last->stamp;
+}
+
+/// Publishes the answer of a step. If it is OK, the next step of the pair begins where this one
+/// ends.
+void StepScheduler::deliver(ToolStep& step) {
+  OrganToolPair& pair = *step.pair;
+  if (step.is_of_shape) ++counts_.answered;
+  counts_.samples_cut += step.sampled.samples_cut;
+  counts_.deviation_cut = std::max(counts_.deviation_cut, step.sampled.deviation_cut);
+  counts_.picked.drawn += step.picked.drawn;
+  counts_.picked.undrawn += step.picked.undrawn;
+  if (step.answer->status == ContactArray::OK) {
+    load_.add(step, tools_[step.tool]);
+    poses_.set_answered(tools_[step.tool], step.organ->frame(), step.end->stamp);
+    pair.last =
+        LastStep{std::move(step.end->value), step.end->stamp, pair.current.mesh, now_, step.answer};
+    pair.tried.reset();
+  }
+  pair.answer = step.answer;
+  publish_(step);
+}
+
+SteadyTime StepScheduler::deadline(const WaitingShape& shape) const {
+  return shape.arrival + std::chrono::duration_cast<SteadyTime::duration>(
+                             std::chrono::duration<double>(parameters_.tf_timeout_sec));
+}
+
+}  // namespace organ_collision

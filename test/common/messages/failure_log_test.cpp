@@ -1,0 +1,112 @@
+#include "common/messages/failure_log.hpp"
+
+#include <gtest/gtest.h>
+#include <organ_collision/ContactArray.h>
+
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "common/messages/text.hpp"
+
+namespace organ_collision {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(Rejection, EachStatusHasItsOwnReason) {
+  const std::pair<std::uint8_t, std::string> reasons[] = {
+      {ContactArray::OK, "ok"},
+      {ContactArray::NO_MESH, "no mesh"},
+      {ContactArray::NO_TRANSFORM, "no transform"},
+      {ContactArray::STALE_MESH, "stale mesh"},
+      {ContactArray::INVALID_REQUEST, "invalid request"},
+      {ContactArray::UNKNOWN_ORGAN, "unknown organ"},
+      {ContactArray::UNKNOWN_TOOL, "unknown tool"},
+      {ContactArray::PICKER_FAILED, "picker failed"},
+      {ContactArray::INVALID_TOOL, "invalid tool"},
+      {ContactArray::INVALID_TOOL + 1, "invalid request"}};
+  for (const auto& [status, reason] : reasons) EXPECT_EQ(reason_of(status), reason);
+}
+
+TEST(Rejection, IllegalNames) {
+  check_name("organ", "liver");
+  check_name("organ", "");
+  try {
+    check_name("organ", "li\nver");
+    ADD_FAILURE();
+  } catch (const Rejection& rejection) {
+    EXPECT_EQ(rejection.status(), ContactArray::INVALID_REQUEST);
+    EXPECT_EQ(rejection.reason(), "illegal name");
+    EXPECT_EQ(std::string(rejection.what()).rfind("organ 'li ver' has control characters", 0), 0U)
+        << rejection.what();
+  }
+}
+
+class FailureLogTest : public testing::Test {
+ protected:
+  const FailureLog::Entry& entry() {
+    entries_ = log_.by_reason();
+    return entries_.at("wrong size");
+  }
+
+  const FailureLog::Time start_{3h};
+  FailureLog log_;
+  FailureLog::Entries entries_;
+};
+
+TEST_F(FailureLogTest, CountsByReasonAndLogsEachOnceASecond) {
+  log_.add("wrong size", "7 numbers", start_);
+  log_.add("wrong size", "8 numbers", start_ + 999ms, 7);
+  log_.add("not finite", "vertex 3", start_);
+  EXPECT_EQ(entry().count, 8u);
+  EXPECT_EQ(entry().latest, "8 numbers");
+  EXPECT_EQ(entry().not_yet_reported, 8u);
+  EXPECT_EQ(entry().logged, start_);
+  EXPECT_EQ(log_.by_reason().size(), 2u);
+  log_.add("wrong size", "9 numbers", start_ + 1000ms);
+  EXPECT_EQ(entry().logged, start_ + 1000ms);
+  log_.add("wrong size", "a\n" + std::string(10'000'000, 'x'), {});
+  EXPECT_LE(entry().latest.size(), kLongestMessage);
+  EXPECT_EQ(entry().latest.rfind("a xxx", 0), 0u) << entry().latest;
+}
+
+TEST_F(FailureLogTest, CountsAndReportsEachFailureOnceFromAllThreads) {
+  constexpr std::uint64_t kEach = 2000;
+  std::vector<std::thread> threads;
+  for (int thread = 0; thread < 3; ++thread) {
+    threads.emplace_back([&] {
+      for (std::uint64_t i = 0; i < kEach; ++i) log_.add("wrong size", "7 numbers", {});
+    });
+  }
+  std::uint64_t reported = 0;
+  const auto report = [&] {
+    for (const auto& [reason, entry] : log_.take_report()) reported += entry.not_yet_reported;
+  };
+  for (int i = 0; i < 1000; ++i) report();
+  for (std::thread& thread : threads) thread.join();
+  report();
+  EXPECT_EQ(reported, 3 * kEach);
+}
+
+TEST_F(FailureLogTest, IsShownWithItsCountsAndWarnsOfNewFailuresOnce) {
+  using diagnostic_msgs::DiagnosticStatus;
+  log_.add("wrong size", "7 numbers", {});
+  log_.add("wrong size", "8 numbers", {});
+  diagnostic_updater::DiagnosticStatusWrapper status, later, broken;
+  show_failures("rejected", log_, status);
+  ASSERT_EQ(status.values.size(), 1u);
+  EXPECT_EQ(status.values[0].key, "rejected, wrong size");
+  EXPECT_EQ(status.values[0].value, "2");
+  EXPECT_EQ(status.level, DiagnosticStatus::WARN);
+  EXPECT_EQ(status.message, "8 numbers");
+  show_failures("rejected", log_, later);
+  EXPECT_EQ(later.values[0].value, "2");
+  EXPECT_EQ(later.level, DiagnosticStatus::OK);
+  log_.add("picker failed", "out of memory", {});
+  show_failures("unanswered", log_, broken);
+  EXPECT_EQ(broken.level, DiagnosticStatus::ERROR);
+}
+
+}  // namespace
+}  // namespace organ_collision

@@ -1,0 +1,74 @@
+#include "common/threads/queues.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <future>
+#include <stdexcept>
+#include <vector>
+
+namespace organ_collision {
+namespace {
+
+int niceness() { return getpriority(PRIO_PROCESS, 0); }
+
+TEST(RunInThreadOf, ActionsRunInTheOtherThreadAndAreWaitedFor) {
+  QueueThread other;
+  std::thread::id first;
+  run_in_thread_of(other.queue(), [&] { first = std::this_thread::get_id(); });
+  EXPECT_NE(first, std::this_thread::get_id());
+  for (int i = 0; i < 100; ++i) {
+    std::thread::id ran_in;
+    run_in_thread_of(other.queue(), [&] { ran_in = std::this_thread::get_id(); });
+    EXPECT_EQ(ran_in, first);
+  }
+  EXPECT_THROW(run_in_thread_of(other.queue(), [] { throw std::domain_error("no"); }),
+               std::domain_error);
+}
+
+TEST(RunInThreadOf, AQueueThatIsDisabledOrClearedEndsTheWait) {
+  ros::CallbackQueue queue;
+  bool has_run = false;
+  std::thread waiting(
+      [&] { EXPECT_THROW(run_in_thread_of(queue, [&] { has_run = true; }), std::runtime_error); });
+  while (queue.isEmpty()) std::this_thread::yield();
+  queue.disable();
+  queue.clear();
+  waiting.join();
+  EXPECT_FALSE(has_run);
+  EXPECT_THROW(run_in_thread_of(queue, [] {}), std::runtime_error);
+}
+
+TEST(QueueThread, YieldsToTheThreadThatStartsIt) {
+  const int before = niceness();
+  const int nicer = std::min(before + 8, 18);
+  std::thread([&] {  // Its niceness ends with it.
+    setpriority(PRIO_PROCESS, 0, nicer);
+    QueueThread thread;
+    int background = 0;
+    run_in_thread_of(thread.queue(), [&] { background = niceness(); });
+    EXPECT_EQ(background, std::min(nicer + 10, 19));
+  })
+      .join();
+  EXPECT_EQ(niceness(), before);
+}
+
+TEST(QueueThread, EndsWithItsPresentCallback) {
+  std::vector<int> called;
+  std::promise<void> started, finish;
+  {
+    QueueThread thread;
+    call_later(thread.queue(), [&] {
+      started.set_value();
+      finish.get_future().wait();
+      called.push_back(1);
+    });
+    started.get_future().wait();
+    finish.set_value();
+  }
+  EXPECT_EQ(called, std::vector<int>{1});
+}
+
+}  // namespace
+}  // namespace organ_collision

@@ -1,0 +1,447 @@
+#include "haptics/tool_proxy.hpp"
+
+#include <gtest/gtest.h>
+#include <organ_collision/ContactArray.h>
+#include <tf2_eigen/tf2_eigen.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <boost/make_shared.hpp>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <string>
+
+#include "common/messages/conversions.hpp"
+#include "common/messages/failure_log.hpp"
+#include "haptics/organ_interpolation.hpp"
+#include "haptics/proxy_publisher.hpp"
+#include "node/motion/transform_buffer.hpp"
+#include "node/organs/organ_registry.hpp"
+#include "test/node/tools/hand_made_tools.hpp"
+#include "test/refusals.hpp"
+
+using namespace organ_collision;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double kRadius = 0.004;
+constexpr double kTolerance = 1e-5;  // [N] The loads are about a millionth too small.
+
+/// A tool above a sheet at z = 0.
+class ToolProxyTest : public testing::Test {
+ protected:
+  ToolProxyTest() {
+    ros::Time::init();
+    tool_.parameters.freedom = ProxyFreedom::kTrocar;
+    parameters_.max_force = parameters_.max_torque = kUnlimited;
+    // The force is there at once.
+    parameters_.max_force_rate = 1e6;
+    parameters_.max_torque_rate = 1e5;
+  }
+
+  /// The hand's tip is at a height [m], some milliseconds later.
+  ProxyReport follow(ToolProxy& proxy, double height, double milliseconds = 20.0) {
+    pass(milliseconds);
+    const Vector3d tip(0.011, -0.007, height);
+    return proxy.follow({{{trocar_, tip}}, stamp_}, scene_, now_);
+  }
+  ProxyReport lose(ToolProxy& proxy, double milliseconds) {
+    pass(milliseconds);
+    return proxy.lose(ContactArray::STALE_MESH, "the mesh is old", "liver_frame", now_);
+  }
+  void pass(double milliseconds) {
+    now_ += std::chrono::duration_cast<ToolProxy::Time::duration>(
+        std::chrono::duration<double, std::milli>(milliseconds));
+    stamp_ += ros::Duration(1e-3 * milliseconds);
+  }
+
+  static double force(const ProxyReport& report) {
+    return std::accumulate(
+        report.forces.begin(), report.forces.end(), 0.0,
+        [](double sum, const OrganForce& of_organ) { return sum + of_organ.force.z(); });
+  }
+  /// The force after the proxy stopped at its clearance from the sheet [N].
+  double spring(double height) const {
+    return parameters_.stiffness * (kRadius + parameters_.clearance - height);
+  }
+  /// The hand reaches a height, and the whole force is there.
+  void press(ToolProxy& proxy, double height) {
+    for (const double at : {0.03, 0.01, height, height}) follow(proxy, at);
+  }
+
+  const Vector3d trocar_{0.02, 0.01, 0.3};
+  Tool tool_ = shaft_tool("hook", kRadius);
+  HapticProxyParameters parameters_;
+  DeformableOrgan organ_{
+      "liver", "liver_frame",
+      TriangleMesh({-0.3F, -0.2F, 0.0F, 0.3F, -0.2F, 0.0F, 0.0F, 0.4F, 0.0F}, {0, 1, 2}),
+      ros::Time(1), ros::Time(1)};
+  ProxyScene scene_{"liver_frame",
+                    {{"liver", organ_.latest().mesh, nullptr, Eigen::Isometry3d::Identity()}},
+                    {&organ_},
+                    {},
+                    {TissueMotion()}};
+  ToolProxy::Time now_{std::chrono::hours(3)};
+  ros::Time stamp_{50.0};
+};
+
+}  // namespace
+
+TEST_F(ToolProxyTest, WithoutAnAnswerTheForceFadesAndComesBack) {
+  ToolProxy proxy(tool_, parameters_);
+  press(proxy, -0.01);
+  parameters_.max_force_rate = 500.0;
+  const double whole = spring(-0.01);
+  EXPECT_NEAR(force(lose(proxy, 1.0)), whole - 0.5, kTolerance);
+  EXPECT_TRUE(proxy.is_fading());
+  const ProxyReport fading = lose(proxy, 2.0);
+  EXPECT_TRUE(fading.is_fading);
+  EXPECT_EQ(fading.forces[0].frame, "liver_frame");
+  EXPECT_NEAR(force(fading), whole - 1.5, kTolerance);
+  EXPECT_EQ(fading.status, ContactArray::STALE_MESH);
+  EXPECT_EQ(fading.message, "the mesh is old");
+  EXPECT_EQ(fading.answer, nullptr);
+  EXPECT_TRUE(fading.forces[0].on_faces.empty()) << "the tissue is let go at once";
+  EXPECT_NEAR(force(lose(proxy, 500.0)), whole - 2.5, kTolerance) << "a pause counts as 2 ms";
+  for (int i = 0; i < 5; ++i) lose(proxy, 1.0);
+  EXPECT_FALSE(proxy.is_fading());
+  EXPECT_TRUE(lose(proxy, 1.0).forces.empty());
+
+  EXPECT_NEAR(force(follow(proxy, -0.01, 500.0)), 1.0, kTolerance);
+  EXPECT_TRUE(proxy.is_fading());
+  for (int i = 0; i < 7; ++i) follow(proxy, -0.01, 1.0);
+  EXPECT_NEAR(force(follow(proxy, -0.01, 1.0)), whole, kTolerance);
+  EXPECT_FALSE(proxy.is_fading());
+}
+
+/// What makes a force jump, on a tool that presses with `whole` newtons.
+TEST_F(ToolProxyTest, NoEventMakesTheForceChangeFasterThanItsLimit) {
+  const struct {
+    const char* name;
+    std::function<void()> happens;
+    double height;  ///< [m] of the hand from then on
+    bool is_free;   ///< then
+  } events[] = {
+      {"the hand jumps", [] {}, 0.2, true},
+      {"the stiffness changes", [&] { parameters_.stiffness = 3000.0; }, -0.01, false},
+      {"the organ's frame jumps", [&] { scene_.organs[0].T_organ_proxy.translation().z() = 0.1; },
+       -0.01, true},
+      {"the organ is removed", [&] { scene_.organs.clear(), scene_.sources.clear(); }, -0.01, true},
+      {"the hand slips far along the tissue", [] {}, -0.011, false},
+  };
+  for (const auto& event : events) {
+    SCOPED_TRACE(event.name);
+    const HapticProxyParameters before = parameters_;
+    const ProxyScene scene = scene_;
+    ToolProxy proxy(tool_, parameters_);
+    press(proxy, -0.01);
+    parameters_.max_force_rate = 400.0;
+    double last = spring(-0.01);
+    event.happens();
+    proxy.update_settings();
+    int ticks = 0;
+    bool is_fading = true;
+    for (; is_fading && ticks < 200; ++ticks) {
+      const ProxyReport report = follow(proxy, event.height, 1.0);
+      EXPECT_LE(std::abs(force(report) - last), 0.4 + kTolerance) << "tick " << ticks;
+      last = force(report);
+      is_fading = report.is_fading;
+    }
+    EXPECT_LT(ticks, 200);
+    EXPECT_EQ(last == 0.0, event.is_free) << "not fading, and free, means no force";
+    parameters_ = before;
+    scene_ = scene;
+  }
+}
+
+TEST_F(ToolProxyTest, AForceMovesWithItsFrame) {
+  ToolProxy proxy(tool_, parameters_);
+  press(proxy, -0.01);
+  parameters_.max_force_rate = 100.0;
+  const Eigen::Isometry3d T_new_old =
+      Eigen::Translation3d(1.0, 2.0, 3.0) * Eigen::AngleAxisd(M_PI_2, Vector3d::UnitX());
+  proxy.change_frame("world", T_new_old);
+  const ProxyReport report = lose(proxy, 1.0);
+  EXPECT_EQ(report.frame, "world");
+  const Vector3d expected = T_new_old.linear() * Vector3d(0.0, 0.0, spring(-0.01) - 0.1);
+  EXPECT_LT((force_of(report.forces) - expected).norm(), kTolerance);
+  const Vector3d tip = T_new_old * Vector3d(0.011, -0.007, -0.01);
+  EXPECT_LT((report.center - tip).norm(), 1e-12);
+  EXPECT_LT((report.hand->axis.tip - tip).norm(), 1e-12) << "drivers move the torque to the tip";
+}
+
+TEST_F(ToolProxyTest, ALowerLimitAndTheEndOutrankTheRate) {
+  for (const bool ends : {false, true}) {
+    ToolProxy proxy(tool_, parameters_);
+    press(proxy, -0.01);
+    const HapticProxyParameters before = parameters_;
+    parameters_.max_force = ends ? kUnlimited : 1e-6;
+    parameters_.max_force_rate = ends ? 10.0 : 0.0;
+    if (ends) {
+      proxy.let_go();
+    } else {
+      proxy.update_settings();
+    }
+    EXPECT_TRUE(ends || proxy.is_fading()) << "so that the node makes a tick at once";
+    double last = spring(-0.01);
+    for (int tick = 0; tick < 12; ++tick) {
+      const ProxyReport report = ends ? lose(proxy, 1.0) : follow(proxy, -0.01, 1.0);
+      EXPECT_LE(last - force(report), 0.2 * spring(-0.01)) << "no leap";
+      last = force(report);
+      EXPECT_LE(last, tick < 10 ? kUnlimited : ends ? 0.0 : 1e-6 + 1e-12);
+    }
+    EXPECT_FALSE(proxy.is_fading());
+    parameters_ = before;
+  }
+}
+
+TEST_F(ToolProxyTest, WhenTheProxyIsPlacedAnewTheReasonIsTold) {
+  ToolProxy proxy(tool_, parameters_);
+  press(proxy, -0.01);
+  const ProxyReport jumped = follow(proxy, 0.2, 1.0);
+  EXPECT_TRUE(jumped.answer->is_placed_anew);
+  EXPECT_NE(jumped.message, "");
+}
+
+TEST_F(ToolProxyTest, LargeForcesAreClippedWithTheirTorqueAndTheForcesOnTheTissue) {
+  parameters_.max_force = 0.5;
+  ToolProxy proxy(tool_, parameters_);
+  press(proxy, -0.02);
+  const ProxyReport report = follow(proxy, -0.02);
+  EXPECT_STREQ(report.clipped_by, "max_force");
+  EXPECT_NEAR(force(report), 0.5, 1e-9);
+  EXPECT_TRUE(torque_of(report.forces).isZero(0.0));
+  EXPECT_NEAR(report.forces[0].on_faces[0].force.z(), 0.5, kTolerance);
+  for (int tick = 0; tick < 5; ++tick) follow(proxy, 0.02);
+  EXPECT_EQ(follow(proxy, 0.02).clipped_by, nullptr);
+}
+
+TEST_F(ToolProxyTest, TheTorqueOnAFreeToolIsClippedWithTheForce) {
+  tool_.parameters.freedom = ProxyFreedom::kFree;
+  parameters_.max_torque = 0.05;
+  ToolProxy proxy(tool_, parameters_);
+  press(proxy, -0.02);
+  const ProxyReport report = follow(proxy, -0.02);
+  ASSERT_STREQ(report.clipped_by, "max_torque");
+  const ProxyAnswer& answer = *report.answer;
+  EXPECT_NEAR(torque_of(report.forces).norm(), 0.05, 1e-9);
+  const double share = 0.05 / (parameters_.stiffness * answer.twist.norm());
+  const Vector3d force = share * parameters_.stiffness * answer.pull;
+  EXPECT_LT((force_of(report.forces) - force).norm(), 1e-3);
+}
+
+TEST_F(ToolProxyTest, IfTheProxyHasNoPlaceThereIsNoAnswerAndTheForceFades) {
+  ToolProxy proxy(tool_, parameters_);
+  press(proxy, -0.01);
+  parameters_.max_force_rate = 500.0;
+  pass(1.0);
+  const Vector3d in_the_sheet(0.02, 0.01, 0.0), tip(0.011, -0.007, 0.1);
+  const auto place = [&] { proxy.follow({{{in_the_sheet, tip}}, stamp_}, scene_, now_); };
+  expect_words(refusal_by<Rejection>(place), {"the trocar is in tissue"});
+  EXPECT_NEAR(force(lose(proxy, 0.0)), spring(-0.01) - 0.5, kTolerance);
+  EXPECT_EQ(proxy.answer(), nullptr);
+  EXPECT_NEAR(force(lose(proxy, 1.0)), spring(-0.01) - 1.0, kTolerance);
+}
+
+TEST_F(ToolProxyTest, DampingResistsTheMotionButNeverPullsTheHandIn) {
+  parameters_.damping = 2.0;
+  ToolProxy proxy(tool_, parameters_);
+  press(proxy, 0.0);
+  const double velocity = 0.1;  // [m/s]
+  const ProxyReport inward = follow(proxy, -0.001, 10.0);
+  EXPECT_NEAR(force(inward), spring(-0.001) + 2.0 * velocity, 2e-3);
+  EXPECT_NEAR(force(follow(proxy, -0.001, 10.0)), spring(-0.001), 2e-3);
+  const ProxyReport outward = follow(proxy, 0.0, 10.0);
+  EXPECT_NEAR(force(outward), spring(0.0) - 2.0 * velocity, 2e-3);
+  const ProxyReport fast = follow(proxy, 0.004, 1.0);
+  EXPECT_NEAR(force(fast), 0.0, 1e-9) << "2 N s/m times 4 m/s is more than the spring has";
+}
+
+TEST_F(ToolProxyTest, TheLeapOfANeedleThatPiercesIsNoVelocity) {
+  parameters_.damping = 2.0;
+  parameters_.puncture_force = 3.0;
+  parameters_.friction = 1.0;
+  ToolProxy proxy(tool_, parameters_);
+  press(proxy, 0.0);
+  int ticks_in_tissue = 0;
+  for (double height = 0.0; ticks_in_tissue < 5; height -= 1e-4) {
+    ASSERT_GT(height, -0.02);
+    const ProxyReport report = follow(proxy, height, 1.0);
+    if (report.answer->state != ProxyStatus::kPunctured) continue;
+    EXPECT_GT(force(report), 0.9) << "the friction, and 0.1 m/s against it";
+    ++ticks_in_tissue;
+  }
+}
+
+TEST_F(ToolProxyTest, AnIllegalHandAndAForceThatIsNotFiniteAreRefused) {
+  parameters_.damping = 2.0;
+  ToolProxy proxy(tool_, parameters_);
+  press(proxy, -0.01);
+  EXPECT_THROW(follow(proxy, std::nan("")), std::invalid_argument);
+  EXPECT_NEAR(force(follow(proxy, -0.01)), spring(-0.01), kTolerance) << "the proxy stays";
+  parameters_.stiffness = 1e308;
+  parameters_.jump = std::numeric_limits<double>::infinity();
+  proxy.update_settings();
+  EXPECT_THROW(follow(proxy, -3.0), Rejection);
+}
+
+// Dozens of faces of a fine, flat sheet are near the tip, and only one place.
+TEST_F(ToolProxyTest, AStateHasTheNearestPlaceOfEachPatchWithItsForce) {
+  constexpr int kCells = 40;
+  constexpr float kSize = 5e-4F;  // [m]
+  std::vector<float> vertices;
+  std::vector<std::uint32_t> triangles;
+  for (int row = 0; row <= kCells; ++row) {
+    for (int column = 0; column <= kCells; ++column) {
+      vertices.insert(vertices.end(), {static_cast<float>(column) * kSize,
+                                       static_cast<float>(row) * kSize - 0.02F, 0.0F});
+      if (row == kCells || column == kCells) continue;
+      const auto a = static_cast<std::uint32_t>(row * (kCells + 1) + column), b = a + kCells + 1;
+      triangles.insert(triangles.end(), {a, a + 1, b, a + 1, b + 1, b});
+    }
+  }
+  const DeformableOrgan sheet("liver", "liver_frame", TriangleMesh(vertices, triangles),
+                              ros::Time(1), ros::Time(1));
+  scene_.organs[0].shape = sheet.latest().mesh;
+  ToolProxy proxy(tool_, parameters_);
+  press(proxy, 0.0);
+  const ProxyReport report = follow(proxy, 0.0);
+  EXPECT_GT(report.answer->contacts.size(), 10U);
+  const std::vector<ProxyContact> places = state_of(report).contacts;
+  ASSERT_EQ(places.size(), 1U);
+  EXPECT_EQ(places[0].organ, "liver");
+  EXPECT_EQ(places[0].link, -1);
+  EXPECT_NEAR(places[0].distance, parameters_.clearance, 2e-6);
+  EXPECT_NEAR(places[0].normal.z, -1.0, 1e-6);
+  EXPECT_NEAR(places[0].force.z, -force(report), 0.02);
+  EXPECT_EQ(to_eigen(places[0].velocity), Vector3d(0.0, 0.0, 0.0));
+  const double hover = kRadius + 1.5 * parameters_.clearance;
+  const ProxyReport free = follow(proxy, hover);
+  ASSERT_EQ(free.answer->state, ProxyStatus::kFree);
+  ASSERT_EQ(state_of(free).contacts.size(), 1U) << "a free proxy tells what is near, too";
+  EXPECT_NEAR(state_of(free).contacts[0].distance, 1.5 * parameters_.clearance, 2e-6);
+  EXPECT_EQ(state_of(free).contacts[0].force.z, 0.0);
+  EXPECT_TRUE(state_of(follow(proxy, kRadius + 3.0 * parameters_.clearance)).contacts.empty());
+}
+
+/// Tissue rises by 31 mm/s from 10 mm below a hand, in shapes at 60 Hz.
+class RisingTissueTest : public ToolProxyTest {
+ protected:
+  void begin() {
+    organs_ = OrganRegistry({1000});
+    shapes_ = {};
+  }
+
+  /// The ticks are 1 ms apart.
+  ProxyReport follow_in_tissue(ToolProxy& proxy, int tick, double hand, bool interpolates) {
+    const ros::Time now = ros::Time(50) + ros::Duration(1e-3 * tick);
+    if (tick * 60 / 1000 != (tick - 1) * 60 / 1000 || tick == 0) {
+      const auto height = static_cast<float>(kSpeed * 1e-3 * tick - 0.01);
+      const auto next = boost::make_shared<OrganMesh>();
+      next->organ = next->header.frame_id = "liver";
+      next->header.stamp = now;
+      next->triangles = {0, 1, 2};
+      next->vertices = {-0.3F, -0.2F, height, 0.3F, -0.2F, height, 0.0F, 0.4F, height};
+      organs_.apply(next, now);
+      shapes_.update(organs_, now_);
+    }
+    scene_ = proxy_scene(organs_, transforms_, "liver", {}, now, [&](const auto& organ) {
+      return interpolates ? shapes_.shape(organ, now_) : organ.latest().mesh;
+    });
+    return follow(proxy, hand, 1.0);
+  }
+
+  static constexpr double kSpeed = 0.031;  // [m/s]
+  OrganRegistry organs_{MeshLimits{1000}};
+  OrganInterpolation shapes_;
+  TransformBuffer transforms_;
+};
+
+TEST_F(RisingTissueTest, InterpolatedMovesTheHandInSmallSteps) {
+  for (const bool interpolates : {false, true}) {
+    ToolProxy proxy(tool_, parameters_);
+    begin();
+    double last = 0.0, greatest = 0.0;
+    for (int tick = 0; tick < 400; ++tick) {
+      const ProxyReport report = follow_in_tissue(proxy, tick, 0.0, interpolates);
+      if (tick > 200) greatest = std::max(greatest, std::abs(force(report) - last));
+      last = force(report);
+    }
+    EXPECT_GT(last, 1.0) << "the tissue presses";
+    if (interpolates) {
+      EXPECT_LT(greatest, 0.016);
+    } else {
+      EXPECT_GT(greatest, 0.14);
+    }
+  }
+}
+
+// Also between shapes, against a hand that rests, goes with the tissue, or comes towards it.
+TEST_F(RisingTissueTest, IsDampedByItsSpeedRelativeToTheHand) {
+  parameters_.damping = 8.0;
+  for (const bool interpolates : {false, true}) {
+    for (const double hand : {0.0, kSpeed, -0.02}) {
+      SCOPED_TRACE(testing::Message() << interpolates << ' ' << hand);
+      ToolProxy proxy(tool_, parameters_);
+      begin();
+      const double expected = parameters_.damping * (kSpeed - hand);
+      double least = 1e3, greatest = -1e3;
+      for (int tick = 0; tick < 400; ++tick) {
+        const double height = -0.012 + hand * 1e-3 * tick;
+        const ProxyReport report = follow_in_tissue(proxy, tick, height, interpolates);
+        if (tick < 100) continue;
+        const double spring = parameters_.stiffness * report.answer->pull.norm();
+        least = std::min(least, force(report) - spring);
+        greatest = std::max(greatest, force(report) - spring);
+        const std::vector<ProxyContact> places = state_of(report).contacts;
+        ASSERT_FALSE(places.empty());
+        EXPECT_NEAR(places[0].velocity.z, kSpeed, 0.05 * kSpeed);
+      }
+      EXPECT_NEAR(least, expected, 0.05 * parameters_.damping * kSpeed);
+      EXPECT_NEAR(greatest, expected, 0.05 * parameters_.damping * kSpeed);
+    }
+  }
+}
+
+TEST(PullVelocity, IsTheDerivativeThroughALowPass) {
+  struct {
+    double milliseconds;  ///< since the last pose
+    double pull;          ///< [m]
+    bool leaps;
+    double interval, slope;  ///< [s], [m/s] that the velocity follows; 0: it does not change
+  } const rows[] = {
+      {0.0, 0.2, false, 0.0, 0.0},
+      {10.0, 0.201, false, 0.01, 0.1},
+      {0.0, 0.5, false, 0.0, 0.0},  // A pose of the same time changes nothing.
+      {10.0, 0.203, false, 0.01, 0.2},
+      {-5000.0, 0.3, false, 0.0, 0.0},  // Time goes on from there.
+      {0.4, 0.3002, false, 0.0, 0.0},   // Displacements add up.
+      {0.2, 0.3012, false, 0.0006, 2.0},
+      {1.0, 7.0, true, 0.0, 0.0},
+      {1.0, 6.998, false, 0.001, -2.0},
+  };
+  PullVelocity velocity;
+  ros::Time stamp(50.0);
+  double expected = 0.0;
+  for (const auto& row : rows) {
+    stamp += ros::Duration(1e-3 * row.milliseconds);
+    expected += (1.0 - std::exp(-row.interval / 2e-3)) * (row.slope - expected);
+    EXPECT_NEAR(velocity.update({0.0, 0.0, row.pull}, stamp, row.leaps).z(), expected, 1e-5)
+        << row.pull;
+  }
+}
+
+TEST(PoseOf, IsOfTheTipOfAShaftAlongItElseOfTheFirstLink) {
+  const Vector3d trocar(0.02, -0.1, 0.3), tip(-0.05, 0.07, 0.11);
+  Eigen::Isometry3d pose;
+  tf2::fromMsg(pose_of(shaft_tool("hook", 0.004).parameters, {{trocar, tip}}), pose);
+  EXPECT_LT((pose.translation() - tip).norm(), 1e-12);
+  EXPECT_LT((pose.linear().col(2) - (tip - trocar).normalized()).norm(), 1e-12);
+  const Eigen::Isometry3d wrist = Eigen::Translation3d(0.4, 0.5, -0.6) *
+                                  Eigen::AngleAxisd(1.1, Vector3d(0.3, -0.5, 0.8).normalized());
+  tf2::fromMsg(pose_of(grasper().parameters, {{}, {wrist, Eigen::Isometry3d::Identity()}}), pose);
+  EXPECT_TRUE(pose.isApprox(wrist, 1e-12));
+}

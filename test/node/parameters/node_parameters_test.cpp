@@ -1,0 +1,297 @@
+#include "node/parameters/node_parameters.hpp"
+
+#include "parameter_tables.hpp"
+
+namespace organ_collision {
+
+using XmlRpc::XmlRpcValue;
+
+template <>
+XmlRpcValue legal_parameters<NodeParameters>() {
+  XmlRpcValue all;
+  all["tools"][0]["name"] = "hook";
+  all["tools"][0]["trocar_frame"] = "hook_trocar";
+  all["tools"][0]["tip_frame"] = "hook_tip";
+  all["tools"][0]["radius"] = 0.005;
+  return all;
+}
+
+INSTANTIATE_TYPED_TEST_SUITE_P(CollisionNode, ParameterTableTest, NodeParameters);
+
+namespace {
+
+XmlRpcValue list_of(const std::vector<XmlRpcValue>& values) {
+  XmlRpcValue list;
+  list.setSize(static_cast<int>(values.size()));
+  for (std::size_t i = 0; i < values.size(); ++i) list[static_cast<int>(i)] = values[i];
+  return list;
+}
+
+XmlRpcValue shaft() { return legal_parameters<NodeParameters>()["tools"][0]; }
+
+XmlRpcValue links() {
+  XmlRpcValue tool;
+  tool["name"] = "PSM1";
+  tool["links"] = list_of({"jaw", "other_jaw"});
+  return tool;
+}
+
+ToolParameters parsed(const XmlRpcValue& tool) {
+  XmlRpcValue all;
+  all["tools"][0] = tool;
+  return parse_parameters<NodeParameters>(all).tools.at(0);
+}
+
+std::string refusal(const XmlRpcValue& tool) {
+  return refusal_of<NodeParameters>("tools", list_of({tool}));
+}
+
+TEST(NodeParameters, PickersAreChosenByName) {
+  XmlRpcValue all = legal_parameters<NodeParameters>();
+  all["picker"] = "select";
+  all["gl"] = "egl";
+  const PickerSettings picker = parse_parameters<NodeParameters>(all).picker;
+  EXPECT_EQ(picker.kind, PickerKind::kSelect);
+  EXPECT_EQ(picker.gl, GlPlatform::kEgl);
+  EXPECT_EQ(refusal_of<NodeParameters>("picker", "raytrace"),
+            "~picker is 'raytrace'; must be one of feedback, select, cpu");
+}
+
+TEST(NodeParameters, RefusalsNameTheValueAndWhatIsLegal) {
+  struct Row {
+    const char* name;
+    XmlRpcValue value;
+    const char* legal;
+  };
+  const std::vector<Row> rows = {
+      {"motion_sample_sec", 0.0, "'0'; must be a number, more than 0"},
+      {"motion_sample_sec", "2.5",
+       "the text '2.5'; must be a number, more than 0: write 2.5 without quotes"},
+      {"motion_sample_sec", "5e-3",
+       "the text '5e-3'; must be a number, more than 0: write 5.0e-3 without quotes"},
+      {"motion_sample_sec", "1.5e3", ": write 1.5e+3 without quotes"},
+      {"motion_sample_sec", "1ms", "the text '1ms'; must be a number, more than 0"},
+      {"motion_sample_sec", true, "is true; must be a number, more than 0"},
+      {"tf_timeout_sec", 60.0000001, "'60.0000001'; must be a number, at least 0, at most 60"},
+      {"markers_depth", kUnlimited, "'inf'; must be a number, more than 0"},
+      {"threads", 1025, "'1025'; must be a whole number, at least 0, at most 1024"},
+      {"threads", 2.0, "the number '2'; must be a whole number, at least 0, at most 1024: write 2"},
+      {"threads", "1e1",
+       "the text '1e1'; must be a whole number, at least 0, at most 1024: write 10"},
+      {"threads", 2.5, "the number '2.5'; must be a whole number, at least 0, at most 1024"},
+      {"mesh_timeout_sec", 1e300, "at most 1000000"},
+      {"organ_motion", "On", "the text 'On'; must be true or false: write true without quotes"},
+      {"organ_motion", 1, "the number '1'; must be true or false: write true"},
+      {"organ_motion", "false", "the text 'false'; must be true or false: write false without"},
+      {"rate", 1e-10, "'1e-10'; must be 0 or at least 0.001"},
+      {"picker", 1, "the number '1'; must be one of feedback, select, cpu"},
+      {"tools", list_of({"hook"}), "'hook'; must be a group of name"}};
+  for (const Row& row : rows) {
+    expect_words(refusal_of<NodeParameters>(row.name, row.value),
+                 {std::string("~") + row.name, row.legal});
+  }
+  for (const char* name : {"motion_sample_sec", "threads", "rate"}) {  // Without a decimal point.
+    EXPECT_EQ(refusal_of<NodeParameters>(name, 1), "accepted");
+  }
+}
+
+TEST(NodeParameters, ToolsMustBeGivenAndHaveNamesOfTheirOwn) {
+  expect_words(refusal_of<NodeParameters>("tools", "hook"), {"~tools", "hook", "list"});
+  expect_words(refusal_of<NodeParameters>("tools", list_of({shaft(), shaft()})),
+               {"~tools[1]/name", "hook", "unique"});
+  XmlRpcValue none;
+  none["rate"] = 1;
+  EXPECT_THROW(parse_parameters<NodeParameters>(none), ParameterError);
+  none["tools"].setSize(0);
+  EXPECT_TRUE(parse_parameters<NodeParameters>(none).tools.empty());
+}
+
+TEST(NodeParameters, MisspeltKeysOfToolsAreReported) {
+  XmlRpcValue all = legal_parameters<NodeParameters>();
+  all["rates"] = 1;
+  all["tools"][0]["raduis"] = 1;
+  const std::vector<std::string> misspelt = parse_parameters<NodeParameters>(all).misspelt;
+  ASSERT_EQ(misspelt.size(), 2u);
+  expect_words(misspelt[0], {"~rates", "'rate'"});
+  expect_words(misspelt[1], {"~tools[0]/raduis", "'radius'"});
+  XmlRpcValue tool = shaft(), wrong;
+  for (const auto& [name, value] : tool) wrong[name == "radius" ? "raduis" : name] = value;
+  expect_words(refusal(wrong), {"~tools[0]/radius is missing; must be a number, more than 0 "
+                                "(~tools[0]/raduis is no parameter; nearest is 'radius', legal "
+                                "are name, trocar_frame"});
+}
+
+/// A key of a legal tool with an illegal value, and what the refusal says besides the key.
+struct ToolRefusal {
+  XmlRpcValue (*tool)();
+  const char* key;
+  XmlRpcValue value;
+  std::vector<std::string> words;
+};
+
+TEST(ToolParameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
+  const XmlRpcValue too_long = std::string(257, 'x');
+  const std::vector<ToolRefusal> refusals = {
+      {shaft, "radius", 0.0, {"'0'", "more than 0"}},
+      {shaft, "radius", kUnlimited, {"inf", "more than 0"}},
+      {shaft, "name", "", {"not empty"}},
+      {shaft, "name", 7, {"the number '7'; must be a text that is not empty: write '7', in"}},
+      {shaft, "name", true, {"true; must be a text that is not empty: YAML takes on, yes"}},
+      {shaft, "tip_offset", list_of({0.1, 0.2}), {"three numbers, each from -2 to 2 [m]"}},
+      {shaft,
+       "tip_offset",
+       list_of({0, 0, "5e-3"}),
+       {"with the text '5e-3'", "three numbers", "write 5.0e-3 without quotes"}},
+      {links, "links", list_of({7}), {"with the number '7'", "write '7', in quotes"}},
+      {shaft, "tip_offset", list_of({0, 0, std::nan("")}), {"three numbers"}},
+      {shaft, "tip_offset", list_of({0, 0, 174.6}), {"174.6", "three numbers, each from -2"}},
+      {shaft, "tip_offset", "0 0 1", {"the text '0 0 1'", "list of three numbers"}},
+      {links, "tip_offset", list_of({0, 0, 1}), {"goes with tip_frame or tip_pose_topic"}},
+      {links, "trocar_offset", list_of({0, 0, 1}), {"goes with trocar_frame"}},
+      {shaft, "name", too_long, {"at most 256 bytes"}},
+      {shaft, "name", "ho\nok", {"control characters"}},
+      {shaft, "trocar_frame", too_long, {"at most 256 bytes"}},
+      {shaft, "tip_frame", too_long, {"at most 256 bytes"}},
+      {shaft, "tip_frame", "", {"not empty"}},
+      {shaft, "tip_frame", "/", {"'/'", "TF frame"}},
+      {shaft, "margin", -0.25, {"-0.25", "at least 0"}},
+      {shaft, "margin", std::nan(""), {"nan", "at least 0"}},
+      {shaft, "margin", kUnlimited, {"inf", "at least 0"}},
+      {shaft, "margin", "wide", {"wide", "number"}},
+      {shaft, "max_near", -1, {"-1", "at least 0"}},
+      {shaft, "max_near", 0.5, {"0.5", "whole"}},
+      {shaft, "max_near", 7, {"'7'", "margin"}},
+      {shaft, "freedom", "fixed", {"'fixed'", "trocar, free"}},
+      {shaft, "tip_pose_topic", "a b", {"'a b'"}},
+      {shaft, "tip_pose_topic", "~a", {"'~a'", "without ~"}},
+      {shaft, "tip_pose_topic", "", {"not empty"}},
+      {shaft, "base_pose_topic", "/base", {"'/base'", "tip_pose_topic"}},
+      {shaft, "robot_description", "a", {"goes with links"}},
+      {shaft, "urdf", "a", {"goes with links"}},
+      {shaft, "tf_prefix", "a", {"goes with links"}},
+      {shaft, "links", "jaw", {"'jaw'", "list"}},
+      {shaft, "links", list_of({}), {"not empty"}},
+      {shaft, "links", list_of({"jaw", "jaw"}), {"jaw", "each once"}},
+      {shaft, "links", list_of({""}), {"not empty"}},
+      {shaft, "links", list_of({"a", 1}), {"'{a,1}'", "not empty, of texts"}},
+      {links, "links", list_of({too_long}), {"at most 256 bytes"}},
+      {links, "robot_description", "a b", {"'a b'"}},
+      {links, "urdf", "", {"not empty"}},
+      {links, "tf_prefix", "left/", {"'left/'", "slash"}},
+      {links, "tf_prefix", "/", {"'/'", "slash"}},
+      {links, "freedom", "trocar", {"'trocar'", "must be free"}},
+      {links, "base_pose_topic", "/base", {"'/base'", "tip_pose_topic"}},
+  };
+  for (const ToolRefusal& row : refusals) {
+    XmlRpcValue tool = row.tool();
+    tool[row.key] = row.value;
+    const std::string message = refusal(tool);
+    expect_words(message, {std::string("~tools[0]/") + row.key + " is "});
+    expect_words(message, row.words);
+  }
+}
+
+TEST(ToolParameters, WhatDoesNotGoTogetherIsNamed) {
+  XmlRpcValue nothing;
+  nothing["name"] = "PSM1";
+  expect_words(refusal(nothing), {"~tools[0]/links", "missing", "trocar_frame", "radius"});
+  XmlRpcValue half = links();
+  half["radius"] = 0.01;
+  expect_words(refusal(half), {"~tools[0]/trocar_frame", "missing"});
+  half = links();
+  half["trocar_frame"] = "a";
+  expect_words(refusal(half), {"~tools[0]/radius", "missing"});
+  XmlRpcValue two = links();
+  two["urdf"] = "/hook.urdf";
+  two["robot_description"] = "robot_description";
+  expect_words(refusal(two), {"~tools[0]/robot_description", "beside urdf"});
+}
+
+TEST(ToolParameters, TheTipOfATrackedToolIsAPointOfItsMarker) {
+  XmlRpcValue tool = shaft();
+  tool["tip_frame"] = tool["trocar_frame"];
+  tool["tip_offset"] = list_of({0.0, -0.0132, 1});
+  const ToolParameters pointer = parsed(tool);
+  EXPECT_EQ(pointer.tip_frame, pointer.trocar_frame);
+  EXPECT_EQ(pointer.tip_offset, Eigen::Vector3d(0.0, -0.0132, 1.0));
+  EXPECT_EQ(pointer.trocar_offset, Eigen::Vector3d(Eigen::Vector3d::Zero()));
+  EXPECT_FALSE(pointer.is_ball());
+  XmlRpcValue wrist = links();
+  wrist["tip_frame"] = "wrist";
+  wrist["tip_offset"] = list_of({0, 0, 0.5});
+  EXPECT_EQ(parsed(wrist).tip_offset.z(), 0.5);
+}
+
+TEST(ToolParameters, ATipAtTheTrocarMakesABall) {
+  XmlRpcValue tool = shaft();
+  tool["tip_frame"] = "/hook_trocar";
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_TRUE(parsed(tool).is_ball());
+    EXPECT_EQ(parsed(tool).freedom, ProxyFreedom::kFree);
+    tool["trocar_offset"] = tool["tip_offset"] = list_of({0, 0.1, 0.2});
+  }
+  tool["freedom"] = "trocar";
+  expect_words(refusal(tool), {"freedom", "free for a ball"});
+  tool["tip_offset"] = list_of({0, 0, 0.2});
+  EXPECT_FALSE(parsed(tool).is_ball());
+}
+
+TEST(ToolParameters, AreAShaftOrLinksOrBoth) {
+  XmlRpcValue tool = shaft();
+  tool["tip_frame"] = "/hook_tip";
+  tool["margin"] = 0.02;
+  tool["max_near"] = 50;
+  const ToolParameters of_shaft = parsed(tool);
+  EXPECT_EQ(of_shaft.name, "hook");
+  EXPECT_EQ(of_shaft.trocar_frame, "hook_trocar");
+  EXPECT_EQ(of_shaft.tip_frame, "hook_tip");
+  EXPECT_EQ(of_shaft.radius, 0.005);
+  EXPECT_EQ(of_shaft.margin, 0.02);
+  EXPECT_EQ(of_shaft.max_near, 50);
+  EXPECT_EQ(of_shaft.freedom, ProxyFreedom::kTrocar);
+  EXPECT_FALSE(of_shaft.has_tip_of_links());
+
+  const ToolParameters of_links = parsed(links());
+  EXPECT_EQ(of_links.links, (std::vector<std::string>{"jaw", "other_jaw"}));
+  EXPECT_EQ(of_links.robot_description, "robot_description");
+  EXPECT_EQ(of_links.link_frame("jaw"), "jaw");
+  EXPECT_EQ(of_links.freedom, ProxyFreedom::kFree);
+  EXPECT_FALSE(of_links.has_shaft());
+  EXPECT_FALSE(of_links.has_tip_of_links());
+
+  tool["links"] = links()["links"];
+  tool["urdf"] = "package://hooks/hook.urdf";
+  const ToolParameters both = parsed(tool);
+  EXPECT_TRUE(both.has_shaft());
+  EXPECT_EQ(both.links.size(), 2u);
+  EXPECT_EQ(both.urdf, "package://hooks/hook.urdf");
+  EXPECT_EQ(both.robot_description, "");
+}
+
+TEST(ToolParameters, TipsComeFromFramesOrPoses) {
+  XmlRpcValue tool = shaft();
+  tool["tip_pose_topic"] = "/PSM1/measured_cp";
+  tool["base_pose_topic"] = "/PSM1/base";
+  const ToolParameters named = parsed(tool);
+  EXPECT_EQ(named.tip_pose_topic, "/PSM1/measured_cp");
+  EXPECT_EQ(named.base_pose_topic, "/PSM1/base");
+  EXPECT_EQ(named.tip_frame, "hook_tip");
+
+  XmlRpcValue unnamed;
+  unnamed["name"] = "PSM1";
+  unnamed["trocar_frame"] = "PSM1_base";
+  unnamed["radius"] = 0.004;
+  unnamed["tip_pose_topic"] = "PSM1/measured_cp";
+  EXPECT_EQ(parsed(unnamed).tip_frame, "PSM1_tip");
+
+  tool = links();
+  tool["tf_prefix"] = "/left";
+  tool["tip_pose_topic"] = "/stylus/measured_cp";
+  EXPECT_EQ(parsed(tool).tip_frame, "left/jaw") << "the first link";
+  tool["tip_frame"] = "/pen_base";
+  EXPECT_EQ(parsed(tool).tip_frame, "pen_base");
+  EXPECT_TRUE(parsed(tool).has_tip_of_links());
+}
+
+}  // namespace
+}  // namespace organ_collision
