@@ -85,11 +85,12 @@ build_jobs() {
 use_ccache() {
   command -v ccache >/dev/null || return 0
   export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=$repository CCACHE_NOHASHDIR=true
-  # Without these, nothing that uses precompiled headers is found again. CMake writes their sources anew in each clone.
-  export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
+  # Without this, the sources that CMake writes anew in each clone are not found again.
+  export CCACHE_SLOPPINESS=include_file_mtime,include_file_ctime
 }
 
-# Configures and builds in Release, into build/ and devel/. targets: what to build; nothing: all.
+# Configures and builds in Release, into build/ and devel/, several sources of a library as one, which takes half the
+# time. targets: what to build; nothing: all.
 targets=()
 # build_package CMAKE_OPTIONS...
 build_package() {
@@ -102,7 +103,8 @@ build_package() {
   use_ros
   use_ccache
   say "Building in $build"
-  cmake -S "$repository" -B "$build" -DCATKIN_DEVEL_PREFIX="$devel" -DCMAKE_BUILD_TYPE=Release -DORGAN_COLLISION_STRICT=OFF "$@"
+  cmake -S "$repository" -B "$build" -DCATKIN_DEVEL_PREFIX="$devel" -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON \
+    -DORGAN_COLLISION_STRICT=OFF "$@"
   cmake --build "$build" --parallel "$(build_jobs)" ${targets:+--target "${targets[@]}"}
 }
 
