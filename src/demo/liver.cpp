@@ -13,9 +13,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kMass = 1.5;              // [kg]
-constexpr double kLongestSubstep = 0.004;  // [s]
-constexpr double kBreathPeriod = 4.0;      // [s]
+constexpr double kMass = 1.5;            // [kg]
+constexpr double kLiverSubstep = 0.004;  // [s]
+constexpr double kBreathPeriod = 4.0;    // [s]
 /// [m] displacement when inhaled: towards the feet and the front
 const Vector3d kBreath{0.0, -0.006, 0.002};
 
@@ -118,7 +118,7 @@ void even_out(ClosedSurface& surface, int rounds) {
   }
 }
 
-btVector3 to_bullet(const Vector3d& v) { return btVector3(v.x(), v.y(), v.z()); }
+btVector3 bullet_vector(const Vector3d& v) { return btVector3(v.x(), v.y(), v.z()); }
 
 /// Whether a ligament holds this place: on the upper part of the back of the right lobe.
 bool is_held(const Vector3d& rest) { return rest.x() < 0.03 && rest.y() > 0.015 && rest.z() < 0.0; }
@@ -219,7 +219,7 @@ LiverSoftBody::LiverSoftBody(ClosedSurface surface)
   world_->m_gravity.setZero();  // the shape at rest already includes gravity
   world_->m_sparsesdf.Initialize();
   btAlignedObjectArray<btVector3> positions;
-  for (const Vector3d& vertex : surface_.vertices) positions.push_back(to_bullet(vertex));
+  for (const Vector3d& vertex : surface_.vertices) positions.push_back(bullet_vector(vertex));
   body_ = std::make_unique<btSoftBody>(world_.get(), positions.size(), &positions[0], nullptr);
   for (const FaceIndices& face : surface_.faces) {
     for (int k = 0; k < 3; ++k) body_->appendLink(face[k], face[(k + 1) % 3], nullptr, true);
@@ -247,7 +247,7 @@ void LiverSoftBody::cut(const Eigen::Hyperplane<double, 3>& plane) {
   for (std::size_t i = 0; i < cut.origins.size(); ++i) {
     const btSoftBody::Node& origin = body_->m_nodes[cut.origins[i]];
     btSoftBody::Node& node = left.body_->m_nodes[i];
-    node.m_x += origin.m_x - to_bullet(surface_.vertices[cut.origins[i]]);
+    node.m_x += origin.m_x - bullet_vector(surface_.vertices[cut.origins[i]]);
     node.m_v = origin.m_v;
   }
   std::swap(surface_, left.surface_);
@@ -258,7 +258,7 @@ void LiverSoftBody::cut(const Eigen::Hyperplane<double, 3>& plane) {
 
 void LiverSoftBody::step(double seconds, const std::vector<VertexPush>& pushes) {
   give_way(pushes);
-  const int substeps = std::ceil(seconds / kLongestSubstep - 1e-9);
+  const int substeps = std::ceil(seconds / kLiverSubstep - 1e-9);
   for (int i = 0; i < substeps; ++i) {
     time_ += seconds / substeps;
     breathe();
@@ -288,7 +288,7 @@ void LiverSoftBody::give_way(const std::vector<VertexPush>& pushes) {
   for (int i = 0; i < body_->m_nodes.size(); ++i) {
     btSoftBody::Node& node = body_->m_nodes[i];
     if (count[i] == 0 || node.m_im == 0.0) continue;
-    const btVector3 shift = to_bullet(sum[i] / count[i]);
+    const btVector3 shift = bullet_vector(sum[i] / count[i]);
     node.m_x += shift;
     // The tool blocks the tissue: it cannot move back against the displacement.
     const btScalar back = node.m_v.dot(shift);
@@ -299,7 +299,7 @@ void LiverSoftBody::give_way(const std::vector<VertexPush>& pushes) {
 void LiverSoftBody::breathe() {
   const double inspired = 0.5 - 0.5 * std::cos(2.0 * M_PI * time_ / kBreathPeriod);
   for (const Ligament& ligament : ligaments_) {
-    body_->m_nodes[ligament.node].m_x = to_bullet(ligament.rest + inspired * kBreath);
+    body_->m_nodes[ligament.node].m_x = bullet_vector(ligament.rest + inspired * kBreath);
   }
 }
 

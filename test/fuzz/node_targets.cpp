@@ -188,7 +188,7 @@ const FuzzTarget node_messages_target("node_messages", run_node_messages);
 // All topics of haptic_proxy in any order: bytes from the wire, to forces. Kinds of message: mesh,
 // vertices, /tf, a pose of a tip.
 
-constexpr double kMaxForce = 5.0;  // [N]
+constexpr double kHandMaxForce = 5.0;  // [N]
 
 /// A stylus through a trocar, or a free tool.
 Tool make_tool(bool is_free) {
@@ -200,7 +200,7 @@ Tool make_tool(bool is_free) {
 
 HapticProxyParameters proxy_parameters() {
   HapticProxyParameters parameters;
-  parameters.max_force = kMaxForce;
+  parameters.max_force = kHandMaxForce;
   parameters.max_torque = 1.0;
   parameters.damping = 1.0;
   parameters.puncture_force = 3.0;
@@ -281,7 +281,7 @@ class ProxyNode {
   static void check(const ProxyReport& report) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const OrganForce& force : report.forces) sum += force.force;
-    demand(sum.norm() <= kMaxForce * (1.0 + 1e-6), "the force is finite and limited");
+    demand(sum.norm() <= kHandMaxForce * (1.0 + 1e-6), "the force is finite and limited");
     demand(report.answer || !report.message.empty(), "a tick without an answer has a message");
   }
 

@@ -20,12 +20,12 @@ const std::string kVertices =
     "v 0 1 0.5\n"
     "v -1 0.25 2\n";
 
-MeshFile read(const std::string& content) { return read_obj(TemporaryFile(content).path()); }
+MeshFile read_text(const std::string& content) { return read_obj(TemporaryFile(content).path()); }
 
-Faces faces_of(const std::string& content) { return mesh_of(read(content)).faces(); }
+Faces faces_of(const std::string& content) { return mesh_of(read_text(content)).faces(); }
 
 TEST(ObjFile, has_the_vertices_and_faces_in_the_order_of_the_file) {
-  const MeshFile obj = read(
+  const MeshFile obj = read_text(
       "\xEF\xBB\xBF# f 1 2 3\nmtllib a.mtl\nvt 0 0\nvn 0 0 1\nv 0.1 -0.2 1e-50 1\r\n"
       "\tv\t1.00000001  1e0 0 \nusemtl f\n\nv 0 1 524288.03 0.5 0.5 0.5\nv 3 3 3\nv 4 4 4\n"
       "l 1 2\nf 2 3 4 5 1\nf 1 2 3\r\nend\n");
@@ -73,7 +73,7 @@ TEST(ObjFile, is_refused_with_the_value_and_what_is_legal) {
         ":6: corner \"" + corner + "\" does not begin with the number of a vertex");
   }
   for (const auto& [content, why] : refusals) EXPECT_EQ(refusal_of(content, read_obj), why);
-  MeshFile large = read(kVertices + "f 1 2 3\n");
+  MeshFile large = read_text(kVertices + "f 1 2 3\n");
   large.triangles.resize(3 * (MeshLimits().max_faces + 1));
   EXPECT_EQ(input_error([&] { mesh_of(large); }),
             large.file + ": 2000001 faces; at most 2000000 are allowed");

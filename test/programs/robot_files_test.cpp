@@ -88,8 +88,8 @@ TEST(Resource, WhatIsNoRegularFileIsRefused) {
 
 namespace {
 
-ToolSurface read(const std::string& name, const Vector3d& scale = kUnit,
-                 const Eigen::Isometry3d& T_link_mesh = kAtOrigin) {
+ToolSurface read_file(const std::string& name, const Vector3d& scale = kUnit,
+                      const Eigen::Isometry3d& T_link_mesh = kAtOrigin) {
   const RobotShape mesh = read_mesh_file(tool_file(name), scale, T_link_mesh);
   EXPECT_EQ(mesh.file, tool_file(name));
   std::vector<Vector3d> vertices;
@@ -131,8 +131,8 @@ void expect_triangles(const ToolSurface& surface, const std::vector<Triangle>& t
   }
 }
 
-std::string refusal(const std::string& name, const Vector3d& scale = kUnit) {
-  return tool_error([&] { read(name, scale); });
+std::string file_refusal(const std::string& name, const Vector3d& scale = kUnit) {
+  return tool_error([&] { read_file(name, scale); });
 }
 
 }  // namespace
@@ -140,7 +140,7 @@ std::string refusal(const std::string& name, const Vector3d& scale = kUnit) {
 TEST(MeshFile, StlAndPlyInBothForms) {
   for (const std::string name :
        {"jaw_ascii.stl", "jaw_binary.stl", "jaw_ascii.ply", "jaw_binary.ply"}) {
-    const ToolSurface surface = read(name, kMillimetres);
+    const ToolSurface surface = read_file(name, kMillimetres);
     expect_triangles(surface, kJaw, [](const Vector3d& v) { return Vector3d(0.001 * v); });
     EXPECT_EQ(surface.vertices().size(), 4u) << name;
   }
@@ -150,7 +150,7 @@ TEST(MeshFile, ObjWithPolygonsButNoLinesAndLoneVertices) {
   std::vector<Triangle> triangles = kJaw;
   triangles.push_back({Vector3d(5, 1, 1), Vector3d(6, 1, 1), Vector3d(6, 2, 1)});
   triangles.push_back({Vector3d(5, 1, 1), Vector3d(6, 2, 1), Vector3d(5, 2, 1)});
-  const ToolSurface surface = read("jaw.obj");
+  const ToolSurface surface = read_file("jaw.obj");
   expect_triangles(surface, triangles, [](const Vector3d& v) { return v; });
   EXPECT_EQ(surface.vertices().size(), 8u);
 }
@@ -163,14 +163,14 @@ TEST(MeshFile, DaeWithItsNodesAndUnitButNotItsUpAxis) {
   // The first triangle, and the two halves of the quadrilateral.
   const std::vector<Triangle> triangles = {{kA, kC, kB}, {kA, kB, kC}, {kA, kC, kD}};
   for (const std::string name : {"jaw.dae", "jaw_z_up.dae"}) {
-    expect_triangles(read(name), triangles, place);
+    expect_triangles(read_file(name), triangles, place);
   }
 }
 
 TEST(MeshFile, ScaledOrMirroredThenPlacedInTheLink) {
   Eigen::Isometry3d T_link_mesh(Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitX()));
   T_link_mesh.translation() << 0.1, 0.2, 0.3;
-  expect_triangles(read("jaw_ascii.stl", {0.001, -0.002, 0.003}, T_link_mesh), kJaw,
+  expect_triangles(read_file("jaw_ascii.stl", {0.001, -0.002, 0.003}, T_link_mesh), kJaw,
                    [](const Vector3d& v) {
                      return Vector3d(0.1 + 0.001 * v.x(), 0.2 - 0.003 * v.z(), 0.3 - 0.002 * v.y());
                    });
@@ -198,7 +198,7 @@ TEST(MeshFile, RefusalsNameTheFileAndWhy) {
       {"wrong_index.ply", kUnit, "100000000 of 3"},
       {"long_face.ply", kUnit, "299999 triangles, but it has only 179 bytes"}};
   for (const Row& row : rows) {
-    expect_words(refusal(row.name, row.scale), {"/test/data/tools/" + row.name, row.words});
+    expect_words(file_refusal(row.name, row.scale), {"/test/data/tools/" + row.name, row.words});
   }
 }
 
@@ -219,8 +219,8 @@ TEST(MeshFile, AByteOrderMarkChangesNothing) {
 
 TEST(MeshFile, CutOffPlyIsRefused) {
   // assimp would never stop reading it.
-  expect_words(refusal("cut_off.ply"), {tool_file("cut_off.ply"), "end_header", "cut off"});
-  expect_words(refusal("endless.ply"), {tool_file("endless.ply"), "end_header"});
+  expect_words(file_refusal("cut_off.ply"), {tool_file("cut_off.ply"), "end_header", "cut off"});
+  expect_words(file_refusal("endless.ply"), {tool_file("endless.ply"), "end_header"});
   const std::string whole = tool_text("jaw_ascii.ply"), path = testing::TempDir() + "cut_off.ply";
   const std::size_t end = whole.find("end_header");
   std::string joined = whole;

@@ -11,7 +11,7 @@ namespace {
 
 const std::string kTools = "tools: [{name: grip, links: [jaw]}]\n";
 
-YamlParameters read(const std::string& text, const std::string& node = "/organ_collision") {
+YamlParameters read_yaml(const std::string& text, const std::string& node = "/organ_collision") {
   const TemporaryFile file(text);
   return {file.path(), node};
 }
@@ -20,7 +20,7 @@ YamlParameters read(const std::string& text, const std::string& node = "/organ_c
 
 TEST(YamlParameters, HaveTheTypesOfTheParameterServer) {
   const NodeParameters parameters =
-      read(
+      read_yaml(
           "tools:\n"
           "  - {name: '7', trocar_frame: \"true\", tip_frame: y, radius: 5e-3}\n"
           "rate: 100\n"
@@ -41,34 +41,35 @@ TEST(YamlParameters, HaveTheTypesOfTheParameterServer) {
 }
 
 TEST(YamlParameters, MisspeltNamesAreTold) {
-  EXPECT_EQ(read(kTools + "rats: 7\n").node_parameters().misspelt.size(), 1u);
-  EXPECT_TRUE(read(kTools + "robot_description: x\n").node_parameters().misspelt.empty());
+  EXPECT_EQ(read_yaml(kTools + "rats: 7\n").node_parameters().misspelt.size(), 1u);
+  EXPECT_TRUE(read_yaml(kTools + "robot_description: x\n").node_parameters().misspelt.empty());
 }
 
 TEST(YamlParameters, ARobotIsSearchedUpwards) {
   const std::string node = "organ_collision:\n  " + kTools;
-  EXPECT_EQ(read(kTools + "robot_description: a\n").find_text("robot_description"), "a");
-  EXPECT_EQ(read(node + "robot_description: b\n").find_text("robot_description"), "b");
-  EXPECT_EQ(
-      read(node + "  robot_description: c\nrobot_description: b\n").find_text("robot_description"),
-      "c");
-  EXPECT_EQ(read(node + "robots: {left: d}\n").find_text("robots/left"), "d");
-  EXPECT_EQ(read(node + "  robots: {right: e}\nrobots: {left: d}\n").find_text("/robots/left"),
+  EXPECT_EQ(read_yaml(kTools + "robot_description: a\n").find_text("robot_description"), "a");
+  EXPECT_EQ(read_yaml(node + "robot_description: b\n").find_text("robot_description"), "b");
+  EXPECT_EQ(read_yaml(node + "  robot_description: c\nrobot_description: b\n")
+                .find_text("robot_description"),
+            "c");
+  EXPECT_EQ(read_yaml(node + "robots: {left: d}\n").find_text("robots/left"), "d");
+  EXPECT_EQ(read_yaml(node + "  robots: {right: e}\nrobots: {left: d}\n").find_text("/robots/left"),
             "d");
   const std::string deep = "arm:\n  robot_description: f\n  contacts:\n    " + kTools;
-  EXPECT_EQ(read(deep, "/arm/contacts").find_text("robot_description"), "f");
+  EXPECT_EQ(read_yaml(deep, "/arm/contacts").find_text("robot_description"), "f");
 }
 
 TEST(YamlParameters, AMissingRobotIsAnError) {
-  EXPECT_THROW(read(kTools).find_text("robot_description"), ToolError);
-  EXPECT_THROW(read(kTools + "robots: {left: d}\n").find_text("robots/right"), ToolError);
-  EXPECT_THROW(read(kTools + "robot_description: [d]\n").find_text("robot_description"), ToolError);
+  EXPECT_THROW(read_yaml(kTools).find_text("robot_description"), ToolError);
+  EXPECT_THROW(read_yaml(kTools + "robots: {left: d}\n").find_text("robots/right"), ToolError);
+  EXPECT_THROW(read_yaml(kTools + "robot_description: [d]\n").find_text("robot_description"),
+               ToolError);
 }
 
 TEST(YamlParameters, RefusesWhatIsNoParameters) {
   for (const char* text : {"", "7", "- a\n", "tools: [", "tools: !degrees 7\n", "tools:\n",
                            "tools: &a {b: *a}\n", "{[a]: b}\n"}) {
-    EXPECT_THROW(read(text), InputError) << text;
+    EXPECT_THROW(read_yaml(text), InputError) << text;
   }
   EXPECT_EQ(input_error([] { YamlParameters("/nowhere/tools.yaml", "/n"); }),
             "/nowhere/tools.yaml: cannot be opened: No such file or directory");

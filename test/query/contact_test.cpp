@@ -205,7 +205,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, ContactTrials,
 
 // What rounding must not decide.
 
-constexpr double kRadius = 5e-3;
+constexpr double kShaftRadius = 5e-3;
 const Isometry3d kOrigin = Isometry3d::Identity();
 const LinkPart kCube = LinkPart::box(kOrigin, {0.1, 0.1, 0.1});
 
@@ -216,7 +216,7 @@ Triangle face_at(double z) {
 
 FaceContact at_rest(const ShaftAxis& axis, const Triangle& face) {
   const auto contact =
-      refine({ShaftMotion{axis, axis}, kRadius, {axis}}, {{face, face}, 0, 1, face});
+      refine({ShaftMotion{axis, axis}, kShaftRadius, {axis}}, {{face, face}, 0, 1, face});
   EXPECT_TRUE(contact);
   return contact.value_or(FaceContact());
 }
@@ -255,7 +255,7 @@ TEST(Contact, PiercedEitherWayTakesTheNormalWithAPositiveFirstComponent) {
   for (const Triangle& same : {face, Triangle{face[0], face[2], face[1]}}) {
     const FaceContact of_shaft = at_rest(axis, same), of_link = at_rest(Link{"jaw", {kCube}}, same);
     EXPECT_TRUE(of_shaft.normal.isApprox(Vector3d(0.0, 0.0, 1.0), 1e-14));
-    EXPECT_NEAR(of_shaft.depth, kRadius, 1e-14);
+    EXPECT_NEAR(of_shaft.depth, kShaftRadius, 1e-14);
     EXPECT_TRUE(of_link.normal.isApprox(Vector3d(0.0, 0.0, 1.0), 1e-14));
     EXPECT_NEAR(of_link.depth, 0.05 + tolerance::kConvexMargin, 1e-12);
   }
@@ -267,7 +267,7 @@ TEST(Contact, OfDegenerateFacesIsAtRightAnglesToAxisAndLongestEdge) {
   for (const Triangle& face : {Triangle{a, b, b}, Triangle{b, c, a}, Triangle{c, b, a}}) {
     const FaceContact contact = at_rest(axis, face);
     EXPECT_TRUE(contact.normal.isApprox(Vector3d(0.0, 1.0, 0.0), 1e-12));
-    EXPECT_NEAR(contact.depth, kRadius, 1e-14);
+    EXPECT_NEAR(contact.depth, kShaftRadius, 1e-14);
     EXPECT_FALSE(contact.behind);
   }
   EXPECT_NEAR(at_rest(axis, {p, p, p}).normal.norm(), 1.0, 1e-14);

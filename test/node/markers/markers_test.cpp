@@ -561,7 +561,7 @@ SceneStep step(double seconds, const ToolPath& path) {
 }
 
 const Tool kHook = shaft_tool("hook", 0.25);
-const ShaftAxis kBegin{{0, 0, 1}, {0, 0, 0}}, kTurned{{0, 0, 1}, {1, 0, 0}};
+const ShaftAxis kBeginAxis{{0, 0, 1}, {0, 0, 0}}, kTurned{{0, 0, 1}, {1, 0, 0}};
 const ShaftAxis kMoved{{0, 2, 1}, {1, 2, 0}};
 
 /// A hook whose hand is 20 mm below its proxy. The hook pushes a surface in the plane z = 0 down.
@@ -641,21 +641,22 @@ TEST_F(Viewer, SeesALinkAsASphereACylinderABoxOrAMesh) {
 
 TEST_F(Viewer, SeesATrailThatFadesAndIsCut) {
   const auto swept = [&](const std::vector<SceneStep>& steps, double now) {
-    const Markers trail = drawn(scene_of(kHook, {kBegin, {}}, steps, now), "swept");
+    const Markers trail = drawn(scene_of(kHook, {kBeginAxis, {}}, steps, now), "swept");
     return trail.empty() ? Marker() : trail[0];
   };
   // A triangle and a quadrangle.
-  EXPECT_EQ(swept({step(0.0, {{0.0, kBegin}, {0.5, kTurned}, {1.0, kMoved}})}, 0.1).points.size(),
-            9u);
-  EXPECT_TRUE(swept({step(0.0, {{0.0, kBegin}}), step(0.0, {})}, 0.0).points.empty());
-  EXPECT_TRUE(swept({step(0.0, {{0.0, kBegin}, {1.0, kBegin}})}, 0.0).points.empty());
-  const ToolPath turn{{0.0, kBegin}, {1.0, kTurned}};
+  EXPECT_EQ(
+      swept({step(0.0, {{0.0, kBeginAxis}, {0.5, kTurned}, {1.0, kMoved}})}, 0.1).points.size(),
+      9u);
+  EXPECT_TRUE(swept({step(0.0, {{0.0, kBeginAxis}}), step(0.0, {})}, 0.0).points.empty());
+  EXPECT_TRUE(swept({step(0.0, {{0.0, kBeginAxis}, {1.0, kBeginAxis}})}, 0.0).points.empty());
+  const ToolPath turn{{0.0, kBeginAxis}, {1.0, kTurned}};
   const Marker trail = swept({step(-9.0, turn), step(0.0, turn), step(0.2, turn)}, 0.3);
   ASSERT_EQ(trail.colors.size(), 6u);  // Nothing is left of the first step.
   EXPECT_NEAR(trail.colors[0].a / trail.color.a, 1.0 - 0.1 / kFadeSec, 1e-5);
   EXPECT_NEAR(trail.colors[3].a / trail.color.a, 1.0 - 0.3 / kFadeSec, 1e-5);
   ToolPath path;
-  for (int i = 0; i < 3000; ++i) path.push_back({i / 2999.0, i % 2 ? kBegin : kTurned});
+  for (int i = 0; i < 3000; ++i) path.push_back({i / 2999.0, i % 2 ? kBeginAxis : kTurned});
   EXPECT_EQ(swept({step(0.0, path)}, 0.0).points.size(), 3 * 2000u);
 }
 

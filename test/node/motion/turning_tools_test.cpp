@@ -20,8 +20,8 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using oracle::Random;
 
-constexpr double kBegin = 10.0;  // [s]
-constexpr double kRadius = 1e-3;
+constexpr double kStartTime = 10.0;  // [s]
+constexpr double kTipRadius = 1e-3;
 
 /// How the tip hangs on what turns.
 enum class Mount { kOffset, kStaticFrame, kRepeatedFrame };
@@ -30,13 +30,13 @@ enum class Mount { kOffset, kStaticFrame, kRepeatedFrame };
 /// by up to 3 rad in 8 to 58 ms; TF gets its pose at the start, at the end, and once in between.
 struct Turn {
   Turn(Mount mount, double most, Random& random)
-      : end(kBegin + 1e-3 * random.integer(8, 58)), tool(shaft_tool("pointer", kRadius)) {
+      : end(kStartTime + 1e-3 * random.integer(8, 58)), tool(shaft_tool("pointer", kTipRadius)) {
     const Isometry3d T_world_liver = oracle::random_pose(0.3, random);
     set_transform(buffer, "world", "liver", 0.0, T_world_liver, true);
     const Vector3d tip = random.scale(0.02, 0.3) * random.direction();
     Isometry3d marker = oracle::random_pose(0.0, random);
     marker.translation() = T_world_liver * random.point(0.05) - marker.linear() * tip;
-    for (const double time : {kBegin, kBegin + 0.4 * (end - kBegin), end}) {
+    for (const double time : {kStartTime, kStartTime + 0.4 * (end - kStartTime), end}) {
       set_transform(buffer, "world", "marker", time, marker);
       marker.linear() *= oracle::random_turn(0.5 * random.scale(0.3 * most, most), random);
       marker.translation() += random.scale(1e-4, 0.02) * random.direction();
@@ -56,14 +56,15 @@ struct Turn {
   }
 
   ToolPose pose(double fraction) {
-    const auto found = ToolPoses(buffer, {0.001, 100})
-                           .pose(tool, "liver", ros::Time(kBegin + fraction * (end - kBegin)));
+    const auto found =
+        ToolPoses(buffer, {0.001, 100})
+            .pose(tool, "liver", ros::Time(kStartTime + fraction * (end - kStartTime)));
     if (!found.found) throw std::runtime_error(found.why_not);
     return found.found->value;
   }
   SampledPath path(int samples_max = 100) {
     return ToolPoses(buffer, {0.001, samples_max})
-        .path(tool, "liver", {pose(0.0), ros::Time(kBegin)}, {pose(1.0), ros::Time(end)});
+        .path(tool, "liver", {pose(0.0), ros::Time(kStartTime)}, {pose(1.0), ros::Time(end)});
   }
 
   double end;  ///< [s]
@@ -133,7 +134,7 @@ TEST(TurningTools, TheOrganAndLinksMayTurnToo) {
   };
   TransformBuffer buffer;
   for (const double angle : {0.0, 0.4}) {
-    const double time = kBegin + 0.05 * angle;
+    const double time = kStartTime + 0.05 * angle;
     set_transform(buffer, "world", "liver", time, turned(angle, {0.1, 0.0, 0.0}));
     set_transform(buffer, "world", "arm/wrist", time, turned(-angle, {0.0, 0.3, 0.0}));
   }
@@ -141,7 +142,7 @@ TEST(TurningTools, TheOrganAndLinksMayTurnToo) {
   const Tool tool = grasper();
   const ToolPoses poses(buffer, {0.001, 1000});
   const auto pose = [&](double time) {
-    return *poses.pose(tool, "liver", ros::Time(kBegin + time)).found;
+    return *poses.pose(tool, "liver", ros::Time(kStartTime + time)).found;
   };
   const SampledPath sampled = poses.path(tool, "liver", pose(0.0), pose(0.02));
   EXPECT_EQ(sampled.unknown, "");
@@ -164,7 +165,7 @@ TEST(TurningTools, EveryFaceThatTheArcTouchesIsFoundAndNoOther) {
   for (int i = 0; i < 60; ++i) {
     Turn turn(i % 2 == 0 ? Mount::kOffset : Mount::kStaticFrame, 3.0, random);
     const TriangleMesh organ = mesh(scattered_faces(150, random));
-    CollisionRequest request = swept(organ, turn.path().path, kRadius);
+    CollisionRequest request = swept(organ, turn.path().path, kTipRadius);
     query.evaluate(request, result);
     const std::vector<FaceContact> contacts = result.contacts;
     const std::set<std::uint32_t> found = faces(result);
@@ -181,12 +182,12 @@ TEST(TurningTools, EveryFaceThatTheArcTouchesIsFoundAndNoOther) {
       return faces(result);
     };
     for (int k = 0; k <= 300; ++k) {
-      for (const std::uint32_t face : touched_at(k / 300.0, kRadius - 1e-6)) {
+      for (const std::uint32_t face : touched_at(k / 300.0, kTipRadius - 1e-6)) {
         ASSERT_EQ(found.count(face), 1U) << "turn " << i << ", face " << face;
       }
     }
     for (const FaceContact& contact : contacts) {
-      ASSERT_EQ(touched_at(contact.fraction, kRadius + 1e-5).count(contact.face), 1U)
+      ASSERT_EQ(touched_at(contact.fraction, kTipRadius + 1e-5).count(contact.face), 1U)
           << "turn " << i << ", face " << contact.face;
     }
   }

@@ -83,12 +83,12 @@ struct Intake {
   OrganIntake intake{organs, rejected, OrganIntake::Threads{node, builder, inspector}};
 };
 
-struct Case {
+struct IntakeCase {
   std::string name;
   std::function<void(Intake&)> play;
 };
 
-const std::vector<Case> kCases = {
+const std::vector<IntakeCase> kIntakeCases = {
     {"MessagesAreAppliedInTheirOrder",
      [](Intake& in) {
        in.mesh("liver", 1, OrganIntake::kLarge);
@@ -238,14 +238,14 @@ const std::vector<Case> kCases = {
      }},
 };
 
-class OrganIntakeTest : public testing::TestWithParam<Case> {};
+class OrganIntakeTest : public testing::TestWithParam<IntakeCase> {};
 
 TEST_P(OrganIntakeTest, Plays) {
   Intake intake;
   GetParam().play(intake);
 }
 
-INSTANTIATE_TEST_SUITE_P(Table, OrganIntakeTest, testing::ValuesIn(kCases),
+INSTANTIATE_TEST_SUITE_P(Table, OrganIntakeTest, testing::ValuesIn(kIntakeCases),
                          [](const auto& info) { return info.param.name; });
 
 TEST(LostMessages, AreMissingBetweenTwoOfTheSamePublisher) {

@@ -42,7 +42,7 @@ ToolParameters parsed(const XmlRpcValue& tool) {
   return parse_parameters<NodeParameters>(all).tools.at(0);
 }
 
-std::string refusal(const XmlRpcValue& tool) {
+std::string tool_refusal(const XmlRpcValue& tool) {
   return refusal_of<NodeParameters>("tools", list_of({tool}));
 }
 
@@ -116,9 +116,10 @@ TEST(NodeParameters, MisspeltKeysOfToolsAreReported) {
   expect_words(misspelt[1], {"~tools[0]/raduis", "'radius'"});
   XmlRpcValue tool = shaft(), wrong;
   for (const auto& [name, value] : tool) wrong[name == "radius" ? "raduis" : name] = value;
-  expect_words(refusal(wrong), {"~tools[0]/radius is missing; must be a number, more than 0 "
-                                "(~tools[0]/raduis is no parameter; nearest is 'radius', legal "
-                                "are name, trocar_frame"});
+  expect_words(tool_refusal(wrong),
+               {"~tools[0]/radius is missing; must be a number, more than 0 "
+                "(~tools[0]/raduis is no parameter; nearest is 'radius', legal "
+                "are name, trocar_frame"});
 }
 
 /// A key of a legal tool with an illegal value, and what the refusal says besides the key.
@@ -185,7 +186,7 @@ TEST(ToolParameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
   for (const ToolRefusal& row : refusals) {
     XmlRpcValue tool = row.tool();
     tool[row.key] = row.value;
-    const std::string message = refusal(tool);
+    const std::string message = tool_refusal(tool);
     expect_words(message, {std::string("~tools[0]/") + row.key + " is "});
     expect_words(message, row.words);
   }
@@ -194,17 +195,17 @@ TEST(ToolParameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
 TEST(ToolParameters, WhatDoesNotGoTogetherIsNamed) {
   XmlRpcValue nothing;
   nothing["name"] = "PSM1";
-  expect_words(refusal(nothing), {"~tools[0]/links", "missing", "trocar_frame", "radius"});
+  expect_words(tool_refusal(nothing), {"~tools[0]/links", "missing", "trocar_frame", "radius"});
   XmlRpcValue half = links();
   half["radius"] = 0.01;
-  expect_words(refusal(half), {"~tools[0]/trocar_frame", "missing"});
+  expect_words(tool_refusal(half), {"~tools[0]/trocar_frame", "missing"});
   half = links();
   half["trocar_frame"] = "a";
-  expect_words(refusal(half), {"~tools[0]/radius", "missing"});
+  expect_words(tool_refusal(half), {"~tools[0]/radius", "missing"});
   XmlRpcValue two = links();
   two["urdf"] = "/hook.urdf";
   two["robot_description"] = "robot_description";
-  expect_words(refusal(two), {"~tools[0]/robot_description", "beside urdf"});
+  expect_words(tool_refusal(two), {"~tools[0]/robot_description", "beside urdf"});
 }
 
 TEST(ToolParameters, TheTipOfATrackedToolIsAPointOfItsMarker) {
@@ -231,7 +232,7 @@ TEST(ToolParameters, ATipAtTheTrocarMakesABall) {
     tool["trocar_offset"] = tool["tip_offset"] = list_of({0, 0.1, 0.2});
   }
   tool["freedom"] = "trocar";
-  expect_words(refusal(tool), {"freedom", "free for a ball"});
+  expect_words(tool_refusal(tool), {"freedom", "free for a ball"});
   tool["tip_offset"] = list_of({0, 0, 0.2});
   EXPECT_FALSE(parsed(tool).is_ball());
 }

@@ -29,7 +29,7 @@ using Single = QueryCollision::Request;
 
 namespace {
 
-const Vector3d kAbove{0.1, 0.2, 0.3};
+const Vector3d kAboveOrgan{0.1, 0.2, 0.3};
 const Vector3d kBelow{0.1, 0.2, -0.3};
 const double kNan = std::nan(""), kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::uint8_t kInvalid = ContactArray::INVALID_REQUEST;
@@ -38,7 +38,7 @@ constexpr std::uint8_t kInvalid = ContactArray::INVALID_REQUEST;
 ToolMotion through() {
   ToolMotion motion;
   motion.previous_trocar = motion.trocar = tf2::toMsg(Vector3d(0.0, 0.0, 1.0));
-  motion.previous_tip = tf2::toMsg(kAbove);
+  motion.previous_tip = tf2::toMsg(kAboveOrgan);
   motion.tip = tf2::toMsg(kBelow);
   motion.radius = 0.01;
   return motion;
@@ -47,7 +47,7 @@ ToolMotion through() {
 /// A shaft that rests above the sheet, as the motion of a tool.
 ToolMotion resting_shaft() {
   ToolMotion motion = through();
-  motion.tip = motion.previous_tip = tf2::toMsg(kAbove);
+  motion.tip = motion.previous_tip = tf2::toMsg(kAboveOrgan);
   motion.radius = 0.0;
   return motion;
 }
@@ -188,7 +188,7 @@ TEST_F(QueryServicesTest, SweptAndStatic) {
   EXPECT_EQ(answer.mesh_stamp, ros::Time(1.0));
   EXPECT_TRUE(answer.regions.empty());
   request.mode = ContactArray::STATIC;
-  request.motion.tip = tf2::toMsg(kAbove);
+  request.motion.tip = tf2::toMsg(kAboveOrgan);
   request.motion.previous_tip = tf2::toMsg(kBelow);
   answer = services.query(request);
   EXPECT_EQ(answer.status, ContactArray::OK);
@@ -197,7 +197,7 @@ TEST_F(QueryServicesTest, SweptAndStatic) {
 
 TEST_F(QueryServicesTest, OrganRestsOnRequestAndInStaticQueries) {
   send_vertices(1.1, 2.0f);
-  request.motion.previous_tip = request.motion.tip = tf2::toMsg(kAbove);
+  request.motion.previous_tip = request.motion.tip = tf2::toMsg(kAboveOrgan);
   EXPECT_EQ(services.query(request).contacts.size(), 2u);
   request.organ_rests = true;
   EXPECT_TRUE(services.query(request).contacts.empty());
@@ -265,7 +265,7 @@ TEST_F(QueryServicesTest, SidesAreKnownWhenTheSurfaceIsInspected) {
 TEST_F(QueryServicesTest, ToolFromItsLastPublishedPose) {
   request.tool = "hook";
   request.motion = {};
-  send_tip(1.0, kAbove);
+  send_tip(1.0, kAboveOrgan);
   const ContactArray at_rest = services.query(request);  // There was no step yet.
   EXPECT_EQ(at_rest.status, ContactArray::OK) << at_rest.message;
   EXPECT_EQ(at_rest.step_start, at_rest.header.stamp);
@@ -288,7 +288,7 @@ TEST_F(QueryServicesTest, ToolFromItsLastPublishedPose) {
 TEST_F(QueryServicesTest, AStampThatWasAheadDoesNotHoldTheTool) {
   request.tool = "hook";
   request.motion = {};
-  send_tip(50.8, kAbove);
+  send_tip(50.8, kAboveOrgan);
   send_vertices(50.8, 0.0);
   evaluate(std::chrono::milliseconds(20));  // The first shape waits no longer.
   ASSERT_EQ(steps.history().at({"liver", 0}).last->stamp, ros::Time(50.8));
@@ -307,7 +307,7 @@ TEST_F(QueryServicesTest, AToolOfTFMeetsTheOrganWhereItsLastStepLeftIt) {
     ContactArray answer;
     return take_snapshot({parameters, tools, pipeline}, request, true, answer).shape_before;
   };
-  send_tip(1.0, kAbove);
+  send_tip(1.0, kAboveOrgan);
   evaluate();
   EXPECT_EQ(shape_before(), nullptr) << "the step ended with the latest shape";
   send_vertices(1.1, 0.5);
@@ -325,10 +325,10 @@ TEST_F(QueryServicesTest, AToolOfTFMeetsTheOrganWhereItsLastStepLeftIt) {
 TEST_F(QueryServicesTest, AWayThatIsNotWhollyKnownIsSaid) {
   request.tool = "hook";
   request.motion = {};
-  send_tip(1.0, kAbove);
+  send_tip(1.0, kAboveOrgan);
   evaluate();
   send_tip(2.0, kBelow);
-  send_tip(15.0, kAbove);
+  send_tip(15.0, kAboveOrgan);
   const ContactArray answer = services.query(request);
   EXPECT_EQ(answer.status, ContactArray::OK) << answer.message;
   EXPECT_TRUE(answer.path_incomplete);
@@ -339,7 +339,7 @@ TEST_F(QueryServicesTest, PosesThatRestAreOfThePresentAlsoIfTheLastStepWasLater)
   request.tool = "hook";
   request.motion = {};
   request.header.stamp = {};
-  set_point(transforms, "liver_frame", "hook_tip", 0.0, kAbove, true);
+  set_point(transforms, "liver_frame", "hook_tip", 0.0, kAboveOrgan, true);
   evaluate();
   ros::Time::setNow(ros::Time(60));
   tick();
@@ -379,7 +379,7 @@ TEST_F(QueryServicesTest, TheStampSaysWhereTheFrameOfTheMotionWas) {
   set_point(transforms, "liver_frame", "carrier", 5.0, {0.0, 0.0, -0.6});
   request.header.frame_id = "carrier";
   request.mode = ContactArray::STATIC;
-  request.motion.tip = tf2::toMsg(kAbove);
+  request.motion.tip = tf2::toMsg(kAboveOrgan);
   for (const auto& [stamp, touches] :
        {std::pair(4.25, false), std::pair(4.5, true), std::pair(0.0, true)}) {
     request.header.stamp = ros::Time(stamp);
@@ -472,7 +472,7 @@ TEST_F(QueryServicesTest, IllegalNamesAreRefusedInAShortAnswer) {
 TEST_F(QueryServicesTest, SweepsBackwardsInTimeAreRefused) {
   request.tool = "hook";
   request.motion = {};
-  send_tip(1.0, kAbove);
+  send_tip(1.0, kAboveOrgan);
   send_tip(1.2, kBelow);
   send_vertices(1.125, 0.0);
   evaluate();

@@ -29,7 +29,7 @@ using Eigen::Vector3d;
 INSTANTIATE_TEST_SUITE_P(Pickers, PickerTest, PickerTest::all(), PickerTest::name);
 
 // A box of 2 m by 2 m by 2 m whose center is not the frame's origin.
-ViewingVolume box() {
+ViewingVolume box_volume() {
   return ViewingVolume::orthographic(
       {Vector3d(3, -2, 5), Vector3d::Zero(), Eigen::Matrix3d::Identity(), -1, 1, -1, 1, -1, 1});
 }
@@ -55,10 +55,10 @@ TEST_P(PickerTest, GrowsItsBufferUntilAllHitsFit) {
   Random random(27);
   std::vector<Triangle> faces(70'000);
   for (Triangle& face : faces) {
-    const Vector3d centre = box().origin() + 0.5 * random.direction();
+    const Vector3d centre = box_volume().origin() + 0.5 * random.direction();
     face = {centre, centre + 0.1 * random.direction(), centre + 2 * random.direction()};
   }
-  const std::vector<Candidate> candidates = pick(box(), oracle::mesh_of(faces));
+  const std::vector<Candidate> candidates = pick(box_volume(), oracle::mesh_of(faces));
   ASSERT_EQ(candidates.size(), faces.size());
   for (std::uint32_t i = 0; i < candidates.size(); ++i) ASSERT_EQ(candidates[i].face, i);
 }
@@ -89,14 +89,14 @@ TEST_P(PickerTest, TakesNoMemoryForEachQuery) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "memory that is freed stays with the sanitizer";
 #endif
-  const Vector3d at = box().origin();
+  const Vector3d at = box_volume().origin();
   const Triangle face = {at + Vector3d(-4, 0, 0.1), at + Vector3d(4, 0, 0), at + Vector3d(0, 4, 0)};
   const TriangleMesh mesh = oracle::mesh_of(std::vector<Triangle>(5, face));
   std::vector<Candidate> candidates;
   long before = 0;
   for (int i = 0; i < 24'000; ++i) {
     if (i == 4000) before = resident_memory();
-    picker_->pick(box(), mesh, candidates);
+    picker_->pick(box_volume(), mesh, candidates);
     ASSERT_EQ(candidates.size(), 5U);
   }
   EXPECT_LT(resident_memory() - before, 2'000'000);
