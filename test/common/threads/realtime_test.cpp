@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kPriority = 7;
 
-int niceness() { return getpriority(PRIO_PROCESS, static_cast<id_t>(gettid())); }
+int thread_niceness() { return getpriority(PRIO_PROCESS, static_cast<id_t>(gettid())); }
 
 bool is_realtime(pid_t thread) {
   sched_param parameters{};
@@ -71,14 +71,14 @@ TEST(Scheduling, WithoutTheRightThereIsAReasonAndNothingChanges) {
 }
 
 TEST(Scheduling, TheCallingThreadAloneLowersItsPriority) {
-  const int before = niceness();
+  const int before = thread_niceness();
   std::thread([&] {
     lower_priority_of_this_thread();
-    EXPECT_EQ(niceness(), std::min(before + 10, 19));
+    EXPECT_EQ(thread_niceness(), std::min(before + 10, 19));
     yield_to_all_threads();
-    EXPECT_EQ(niceness(), 19);
+    EXPECT_EQ(thread_niceness(), 19);
   }).join();
-  EXPECT_EQ(niceness(), before);
+  EXPECT_EQ(thread_niceness(), before);
 }
 
 // A sanitizer reserves terabytes.
