@@ -1,6 +1,5 @@
 #pragma once
 
-#include <geometry_msgs/Wrench.h>
 #include <organ_collision/ContactArray.h>
 #include <organ_collision/VertexForces.h>
 
@@ -11,10 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "common/parameters/parameter_group.hpp"
 #include "organ_collision/geometry/organ/triangle_mesh.hpp"
 
-/// The names in the ROS graph that all nodes that publish forces share.
+/// The names of forces in the ROS graph.
 namespace organ_collision::names {
 
 /// The topics of an organ and a tool, below ~ORGAN/TOOL.
@@ -29,10 +27,6 @@ inline constexpr char kMaxForce[] = "max_force";
 
 namespace organ_collision {
 
-/// The legal values of parameters that several nodes have. Far larger ones are mistakes.
-inline constexpr NumberRange kStiffnesses{1e-3, 1e5};         // [N/m]
-inline constexpr NumberRange kForces{0.0, 1e4, false, true};  // [N]
-
 /// A force of the tissue on the tool, at a point of a face. In the organ's frame unless noted.
 struct FaceForce {
   std::uint32_t face;                       ///< Contact.face
@@ -43,28 +37,15 @@ struct FaceForce {
   Eigen::Vector3d force = {0.0, 0.0, 0.0};  ///< [N]
 };
 
-/// The sum of the forces [N].
-Eigen::Vector3d sum_of(const std::vector<FaceForce>& forces);
-
-/// The sum of the forces [N], and of their torques about the origin of the organ's frame [N m].
-geometry_msgs::Wrench wrench_of(const std::vector<FaceForce>& forces);
-
 /// The factor in (0, 1] that reduces a force [N] or a torque [N m] to the magnitude `most` > 0, if
 /// it is larger.
 double share_within_limit(const Eigen::Vector3d& load, double most);
-
-/// If the sum of the forces exceeds `max_force` [N], scales all of them so that their sum has this
-/// magnitude. Returns whether it scaled them.
-bool limit_force(std::vector<FaceForce>& forces, double max_force);
 
 /// The forces of the tool on the tissue's vertices. Minus each face's force is divided among the
 /// face's vertices by the barycentric coordinates of its point. Therefore the sum of the
 /// vertices' forces is minus that of the faces' forces, and the same holds for their torques, up to
 /// rounding. Vertices without a force are left out. `contacts`: the answer that the forces are
 /// from.
-///
-/// Throws Rejection if the barycentric coordinates of a point with a force are negative or not
-/// finite, or if their sum is not 1 (to 1e-6).
 VertexForces vertex_forces(const ContactArray& contacts, const std::vector<FaceForce>& forces);
 
 /// The name of a tool in the ROS graph: `_` replaces each character other than ASCII letters,

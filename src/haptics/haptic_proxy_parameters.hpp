@@ -83,7 +83,7 @@ inline ParameterTable table_of(HapticProxyParameters& p) {
       },
       "TF frame in which proxies move and forces are given. If its organ is removed, that of "
       "another one is chosen, and proxies are placed anew");
-  t.number(names::kStiffness, p.stiffness, kStiffnesses,
+  t.number(names::kStiffness, p.stiffness, {1e-3, 1e5},
            "[N/m] force for each metre between hand and proxy")
       .live();
   t.number(
@@ -92,7 +92,7 @@ inline ParameterTable table_of(HapticProxyParameters& p) {
        "of 2 ms, while the proxy is held back. It never reverses or doubles the spring's force")
       .live();
   t.number(
-       names::kMaxForce, p.max_force, kForces,
+       names::kMaxForce, p.max_force, {0.0, 1e4, false, true},
        "[N] larger forces are clipped to it. The torque and the forces on vertices shrink by the "
        "same factor. A lower limit holds within 10 ms, whatever the rates are. .inf: no limit")
       .live();

@@ -1,6 +1,5 @@
 #!/usr/bin/python3
-"""The launch files of examples/ and their programs do what the pages say. Other tests run forces.launch and the
-robots."""
+"""The launch files of examples/ and their programs do what the pages say. Other tests run the robots."""
 
 import re
 import signal
@@ -23,8 +22,8 @@ from support.node_client import LIMIT, ContactLog, Log, NodeClient, pose_stamped
 from support.processes import NodeStarter, program
 
 LONG = 90.0  # [s]
-TESTED = {'start', 'mesh_adapter', 'two_hosts', 'haptics', 'dvrk', 'fem_tissue', 'numpy'}
-ELSEWHERE = {'forces', 'grasper', 'plan'}  # contact_adapter.test and robots.test
+TESTED = {'start', 'mesh_adapter', 'two_hosts', 'haptics', 'dvrk', 'fem_tissue', 'forces', 'numpy'}
+ELSEWHERE = {'grasper', 'plan'}  # robots.test
 FEM_STEP = 0.004  # [s] of fem_tissue
 
 
