@@ -4,23 +4,17 @@
 #include <map>
 #include <string>
 
-#include "haptics/forces.hpp"
 #include "node/parameters/node_parameters.hpp"
 #include "organ_collision/query/haptic_proxy.hpp"
 #include "organ_collision/ros/names.hpp"
+#include "topic_names.hpp"
 #include "wrench_limiter.hpp"
 
-/// The names of haptic_proxy in the ROS graph, besides those of the collision node and of all nodes
-/// with forces.
+/// The names of parameters that the code or messages to the user mention.
 namespace organ_collision::names {
 
-inline constexpr char kHapticProxy[] = "haptic_proxy";
-/// The topics of a tool, below ~TOOL.
-inline constexpr char kProxy[] = "proxy", kState[] = "state";
-/// The name of a proxy's TF frame is the name of its tool and this suffix.
-inline constexpr char kProxyFrame[] = "_proxy";
-/// The names of parameters that messages to the user mention.
-inline constexpr char kMaxTorque[] = "max_torque";
+inline constexpr char kStiffness[] = "stiffness";
+inline constexpr char kMaxForce[] = "max_force", kMaxTorque[] = "max_torque";
 inline constexpr char kMeshTimeoutSec[] = "mesh_timeout_sec";
 inline constexpr char kFrameTimeoutSec[] = "frame_timeout_sec";
 
@@ -123,7 +117,8 @@ inline ParameterTable table_of(HapticProxyParameters& p) {
       .live();
   t.number("pose_timeout_sec", p.pose_timeout_sec, kTimerPeriod,
            "[s] of wall time after the last pose of the hand, the force fades. Raise it for poses "
-           "slower than 100 Hz");
+           "slower than 100 Hz. A tool with `lockstep` waits so long for its pose at the stamp of "
+           "a shape, and then rests");
   t.number(
       names::kMeshTimeoutSec, p.mesh_timeout_sec, kNotNegative,
       "[s] if the last shape of any organ, or the last transform of its frame, came longer ago "

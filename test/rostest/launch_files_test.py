@@ -18,7 +18,7 @@ from support.launch_case import FrameLog, LaunchCase, PACKAGE, files
 from support.node_client import LIMIT, Log, NodeClient, wait_until
 from support.processes import NodeStarter, program
 
-HANDS = {'config/demo_hands.yaml', 'examples/haptics.yaml'}  # The tools of haptic_proxy.
+HANDS = {'config/demo_hands.yaml', 'examples/haptics.yaml', 'examples/lockstep.yaml'}  # The tools of haptic_proxy.
 
 
 def shown_topics(displays):
