@@ -1,6 +1,5 @@
 #!/usr/bin/python3
-"""Draws the figures of the pages, from the formulas that the pages give. One of them, stab_forces, shows
-what the package itself computed: stab_forces.csv, which the program test/doc/stab_forces.cpp writes.
+"""Draws the figures of the pages, from the formulas that the pages give.
 
 Usage: doc/figures/draw.py [FOLDER]
 
@@ -16,8 +15,7 @@ import style
 
 FIGURES = ['first_scene', 'touch', 'static_swept', 'fast_sweep', 'tool_frames', 'pose_times',
            'words', 'wedge', 'margins', 'outcodes', 'first_touch', 'closest_approach', 'chord_deviation',
-           'swept_box', 'spans', 'distances', 'piercing', 'winding', 'sides', 'mobility', 'work', 'proxy',
-           'stab_forces']
+           'swept_box', 'spans', 'distances', 'piercing', 'winding', 'sides', 'mobility', 'work', 'proxy']
 
 
 def main():

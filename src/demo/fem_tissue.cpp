@@ -1,6 +1,6 @@
-/// An example of a simulator in which the vertex forces of contact_adapter alone move the tissue.
-/// The collision node runs as a nodelet in this process, so that the shapes reach it without a
-/// copy.
+/// An example of a simulator in which the vertex forces of haptic_proxy alone move the tissue. The
+/// proxy is in lockstep, and runs as a nodelet in this process, so that the shapes reach it without
+/// a copy.
 
 #include <geometry_msgs/WrenchStamped.h>
 #include <nodelet/loader.h>
@@ -24,7 +24,7 @@ namespace {
 
 constexpr char kProgram[] = "fem_tissue";
 constexpr char kOrgan[] = "tissue";  // the name and the frame of the organ
-constexpr char kCollisionNode[] = "/organ_collision";
+constexpr char kProxyNode[] = "/haptic_proxy";
 constexpr char kForces[] = "vertex_forces";
 constexpr char kImpulse[] = "impulse";
 constexpr double kStep = 0.004;     // [s]
@@ -37,12 +37,12 @@ const ros::WallDuration kPatience(0.1);  // after it, the shape is sent again wi
 ProgramHelp help() {
   ProgramHelp help{kProgram,
                    "An example of a simulator: a probe presses into a block of soft tissue, which "
-                   "Bullet simulates with finite elements. The vertex forces of contact_adapter "
-                   "alone move it. Runs the collision node as a nodelet in its own process."};
+                   "Bullet simulates with finite elements. The vertex forces of haptic_proxy "
+                   "alone move it. Runs haptic_proxy as a nodelet in its own process."};
   help.subscribed = {{kForces, "organ_collision/VertexForces", "what moves the tissue"}};
-  help.published = {{ros::names::append(kCollisionNode, names::kOrganMesh),
-                     "organ_collision/OrganMesh", "the tissue, once"},
-                    {ros::names::append(kCollisionNode, names::kOrganVertices),
+  help.published = {{ros::names::append(kProxyNode, names::kOrganMesh), "organ_collision/OrganMesh",
+                     "the tissue, once"},
+                    {ros::names::append(kProxyNode, names::kOrganVertices),
                      "organ_collision/OrganVertices", "its new shapes"},
                     {"/tf", "tf2_msgs/TFMessage", "tip and trocar of the probe"},
                     {"~impulse", "geometry_msgs/WrenchStamped",
@@ -65,8 +65,8 @@ geometry_msgs::TransformStamped frame(const std::string& name, const ros::Time& 
 class FemTissue {
  public:
   explicit FemTissue(ros::NodeHandle node)
-      : mesh_publisher_(collision_node_.advertise<OrganMesh>(names::kOrganMesh, 1, true)),
-        vertices_publisher_(collision_node_.advertise<OrganVertices>(names::kOrganVertices, 1)),
+      : mesh_publisher_(proxy_node_.advertise<OrganMesh>(names::kOrganMesh, 1, true)),
+        vertices_publisher_(proxy_node_.advertise<OrganVertices>(names::kOrganVertices, 1)),
         impulse_publisher_(
             ros::NodeHandle("~").advertise<geometry_msgs::WrenchStamped>(kImpulse, 100)),
         forces_subscriber_(node.subscribe<VertexForces>(
@@ -127,7 +127,7 @@ class FemTissue {
   bool wait_for_forces(const ros::Time& stamp) {
     const ros::WallTime start = ros::WallTime::now();
     while (ros::ok() && ros::WallTime::now() - start < kPatience) {
-      if (forces_ && forces_->header.stamp == stamp) return true;
+      if (forces_ && forces_->mesh_stamp == stamp) return true;
       ros::getGlobalCallbackQueue()->callOne(ros::WallDuration(0.01));
     }
     return false;
@@ -143,6 +143,7 @@ class FemTissue {
     }
     geometry_msgs::WrenchStamped message;
     message.header = forces_->header;
+    message.header.stamp = forces_->mesh_stamp;
     message.wrench.force = to_vector(sum.linear);
     message.wrench.torque = to_vector(sum.angular);
     impulse_publisher_.publish(message);
@@ -152,7 +153,7 @@ class FemTissue {
   long steps_ = 0;
   VertexForcesConstPtr forces_;
   tf2_ros::TransformBroadcaster frames_;
-  ros::NodeHandle collision_node_{kCollisionNode};
+  ros::NodeHandle proxy_node_{kProxyNode};
   ros::Publisher mesh_publisher_;
   ros::Publisher vertices_publisher_;
   ros::Publisher impulse_publisher_;
@@ -167,8 +168,8 @@ int main(int argc, char** argv) {
   if (const auto exit_code = answer_arguments(argc, argv, help())) return *exit_code;
   ros::init(argc, argv, kProgram);
   const ros::NodeHandle node;
-  nodelet::Loader collision_node(false);
-  if (!collision_node.load(kCollisionNode, "organ_collision/CollisionNodelet", {}, {})) return 1;
+  nodelet::Loader proxy_node(false);
+  if (!proxy_node.load(kProxyNode, "organ_collision/HapticProxyNodelet", {}, {})) return 1;
   FemTissue tissue(node);
   tissue.begin();
   for (ros::WallRate rate(1.0 / kStep); ros::ok(); rate.sleep()) tissue.step();

@@ -44,6 +44,10 @@ ProgramHelp haptic_proxy_help() {
       {ros::names::append(tool, names::kState), message_type<ProxyState>(),
        "what the proxy does, the whole wrench on the hand, the places that hold the proxy or are "
        "near it, and why there is no answer"},
+      {ros::names::append(tool, names::kWrench), message_type<geometry_msgs::WrenchStamped>(),
+       "force of all organs on the tool [N], torque about the origin of its tip frame [N m], in "
+       "the "
+       "axes of this frame. A tool without a tip frame: in the frame of its first link"},
       {ros::names::append(pair, names::kWrench), message_type<geometry_msgs::WrenchStamped>(),
        "force of the organ on the hand [N], torque about the origin of the proxy's frame [N m]. In "
        "the proxy's frame for all organs: their sum is the wrench of the state, also while it "
@@ -51,7 +55,7 @@ ProgramHelp haptic_proxy_help() {
       {ros::names::append(pair, names::kVertexForces), message_type<VertexForces>(),
        "forces of the proxy on the tissue's vertices [N], in the organ's frame. Of a free tool, "
        "they add up to minus the wrench, unless the state is fading: tissue that the tool has left "
-       "is free at once"},
+       "is free at once. For a tool with `lockstep`, sent once for each shape of the organ"},
       {names::kMarkers, message_type<visualization_msgs::MarkerArray>(),
        "hands, proxies, forces, states and organs, for RViz"},
       {"/tf", message_type<tf2_msgs::TFMessage>(), "where the proxies are: the frames TOOL_proxy"},
@@ -61,7 +65,8 @@ ProgramHelp haptic_proxy_help() {
   help.parameters = parameter_help<HapticProxyParameters>();
   help.further =
       "roslaunch organ_collision haptic_proxy.launch tools:=FILE.yaml starts the node with the "
-      "tools of a file. doc/haptics.md explains what the proxy does, and how to use it safely.";
+      "tools of a file. doc/haptics.md explains what the proxy does, and how to use it safely; "
+      "doc/forces.md is for tools that a simulator moves.";
   return help;
 }
 

@@ -31,6 +31,8 @@ constexpr std::chrono::milliseconds kFadeStep(1);
 const ros::WallDuration kFarewell(0.1);
 /// The node repeats with this period that there is no answer, for subscribers that came later.
 constexpr std::chrono::milliseconds kRepetition(100);
+/// [shapes] A tool in lockstep answers the latest shapes of an organ if more than these wait.
+constexpr std::size_t kMostAwaited = 10;
 /// These values do not matter: the node does not call ToolPoses::path().
 constexpr PathSampling kNoPaths{1.0, 1};
 
@@ -75,12 +77,16 @@ NodeCore<HapticProxyParameters>::Callbacks HapticProxyNode::callbacks() {
   callbacks.loop.watch_clock = [this] {
     if (!inbox_.watch_clock()) return;
     reset_proxies("the clock jumped back");
-    for (Hand& hand : hands_) hand.stamp = {};
+    for (Hand& hand : hands_) {
+      hand.stamp = {};
+      hand.shapes.clear();
+    }
   };
   callbacks.loop.handle = [this](SteadyTime) {
     while (const auto update = inbox_.intake.next()) {
       has_new_shape_ = true;
       if (update->status == ContactArray::OK) counters_.meshes.count();
+      if (update->change) await_shape(*update);
       if (core_.parameters().organ_interpolation) {
         shapes_.update(inbox_.organs, SteadyClock::now());
       }
@@ -165,6 +171,8 @@ void HapticProxyNode::follow_hand(std::size_t tool, Time now) {
   hand.is_waiting = false;
   try {
     if (hand.is_leaving) throw Rejection(*hand.why_not);
+    check_proxy(tool);
+    if (core_.tools()[tool].parameters.lockstep) return answer_shapes(tool, now);
     const Timed<ToolPose> pose = latest_pose(tool);
     const auto before = std::exchange(hand.organs, std::nullopt);
     const ProxyScene scene = scene_at(now);
@@ -186,20 +194,90 @@ void HapticProxyNode::follow_hand(std::size_t tool, Time now) {
 /// The organs at `now`. Throws Rejection.
 ProxyScene HapticProxyNode::scene_at(Time now) {
   const bool interpolates = core_.parameters().organ_interpolation;
-  const auto shape_of = [&](const DeformableOrgan& organ) {
-    return interpolates ? shapes_.shape(organ, now) : organ.latest().mesh;
+  const auto shape_of = [&](const DeformableOrgan& organ) -> Timed<SharedShape> {
+    const OrganShape& latest = organ.latest();
+    return {interpolates ? shapes_.shape(organ, now) : latest.mesh, latest.stamp};
   };
   return proxy_scene(inbox_.organs, inbox_.transforms, frame_.name(), age_limits(),
                      ros::Time::now(), shape_of);
 }
 
-/// The latest pose of the tool's hand. Throws Rejection if it is not known.
-Timed<ToolPose> HapticProxyNode::latest_pose(std::size_t tool) const {
+/// The organs at the stamp of a shape, without interpolation. Their frames may have any age,
+/// because a simulator in lockstep may be slow. Throws Rejection.
+ProxyScene HapticProxyNode::scene_of(const AwaitedShape& awaited) {
+  const auto shape_of = [&](const DeformableOrgan& organ) -> Timed<SharedShape> {
+    if (organ.name() == awaited.organ) return awaited.shape;
+    return {organ.latest().mesh, organ.latest().stamp};
+  };
+  return proxy_scene(inbox_.organs, inbox_.transforms, frame_.name(),
+                     {core_.parameters().mesh_timeout_sec, 0.0}, ros::Time::now(), shape_of,
+                     awaited.shape.stamp);
+}
+
+/// All tools in lockstep have to answer the new shape of an organ. Shapes of other triangles than
+/// its shapes before are no more to be answered.
+void HapticProxyNode::await_shape(const OrganUpdate& update) {
+  const std::string& name = update.message.organ();
+  const auto organ = inbox_.organs.organs().find(name);
+  for (std::size_t tool = 0; tool < hands_.size(); ++tool) {
+    if (!core_.tools()[tool].parameters.lockstep) continue;
+    Hand& hand = hands_[tool];
+    const bool goes_on = update.change == OrganChange::kShape && hand.shapes.size() < kMostAwaited;
+    const auto is_of_organ = [&](const AwaitedShape& awaited) {
+      return awaited.organ == name &&
+             !(goes_on && awaited.shape.value->same_faces(*organ->second.latest().mesh));
+    };
+    hand.shapes.erase(std::remove_if(hand.shapes.begin(), hand.shapes.end(), is_of_organ),
+                      hand.shapes.end());
+    if (update.change == OrganChange::kRemoved) continue;
+    const OrganShape& latest = organ->second.latest();
+    hand.shapes.push_back({name, {latest.mesh, latest.stamp}, SteadyClock::now()});
+    hand.is_waiting = true;
+  }
+}
+
+/// Makes a tick for each shape that the tool can answer now. Throws Rejection if there is no
+/// answer: to the first of these shapes, or since an earlier one.
+void HapticProxyNode::answer_shapes(std::size_t tool, Time now) {
+  Hand& hand = hands_[tool];
+  if (hand.shapes.empty()) {
+    scene_of({});
+    if (hand.why_not) throw Rejection(*hand.why_not);
+  }
+  while (!hand.shapes.empty()) {
+    const auto pose = pose_for(tool, hand.shapes.front(), now);
+    if (!pose) return;
+    const AwaitedShape awaited = std::move(hand.shapes.front());
+    hand.shapes.pop_front();
+    tick(hand, *pose, scene_of(awaited), now, awaited.organ);
+  }
+}
+
+/// The pose of a tool in lockstep for a shape: at its stamp, or the last one if no pose has come
+/// for pose_timeout_sec. Empty: it may still come. Throws Rejection if no pose is known.
+std::optional<Timed<ToolPose>> HapticProxyNode::pose_for(std::size_t tool,
+                                                         const AwaitedShape& awaited, Time now) {
+  const ros::Time stamp = awaited.shape.stamp;
+  auto pose = poses_.pose(core_.tools()[tool], frame_.name(), stamp);
+  if (pose.found) {
+    if (pose.found->stamp.isZero()) pose.found->stamp = stamp;
+    return pose.found;
+  }
+  if (now - awaited.since < duration(core_.parameters().pose_timeout_sec)) return std::nullopt;
+  return latest_pose(tool);
+}
+
+/// Throws Rejection if the tool can have no proxy.
+void HapticProxyNode::check_proxy(std::size_t tool) const {
   if (!hands_[tool].proxy) {
     throw Rejection(ContactArray::INVALID_TOOL, reason_of(ContactArray::INVALID_TOOL),
                     core_.tools()[tool].fault);
   }
   if (frame_.name().empty()) throw no_organ();
+}
+
+/// The latest pose of the tool's hand. Throws Rejection if it is not known.
+Timed<ToolPose> HapticProxyNode::latest_pose(std::size_t tool) const {
   auto pose = poses_.pose(core_.tools()[tool], frame_.name(), ros::Time(0));
   if (!pose.found) {
     throw Rejection(ContactArray::NO_TRANSFORM, reason_of(ContactArray::NO_TRANSFORM),
@@ -244,10 +322,15 @@ bool HapticProxyNode::is_due(std::size_t tool, ros::Time stamp, bool have_organs
   return !hand.why_not && hand.proxy->is_fading() && now - hand.told >= kFadeStep;
 }
 
+/// Follows the hand of a tool. `answered_organ`: ProxyReport::answered_organ.
 void HapticProxyNode::tick(Hand& hand, const Timed<ToolPose>& pose, const ProxyScene& scene,
-                           Time now) {
+                           Time now, const std::string& answered_organ) {
   const HapticProxyParameters& parameters = core_.parameters();
-  const ProxyReport report = hand.proxy->follow(pose, scene, now);
+  const std::string tip_frame = tip_frame_of(hand.proxy->tool());
+  const auto tip = look_up(inbox_.transforms, frame_.name(), tip_frame, pose.stamp);
+  if (tip.found) hand.proxy->set_tip_frame(tip.found->value);
+  ProxyReport report = hand.proxy->follow(pose, scene, now);
+  report.answered_organ = answered_organ;
   publisher_.publish(report);
   hand.told = now;
   hand.why_not.reset();
@@ -317,10 +400,13 @@ std::optional<SteadyTime> HapticProxyNode::next_deadline() {
   std::optional<Time> next;
   const auto add = [&next](Time time) { next = next ? std::min(*next, time) : time; };
   for (const Hand& hand : hands_) {
-    if (hand.proxy && hand.proxy->is_fading()) add(now + kFadeStep);
-    if (!hand.why_not && hand.heard && !hand.stamp.isZero()) {
-      add(*hand.heard + duration(core_.parameters().pose_timeout_sec));
+    const bool in_lockstep = hand.proxy && hand.proxy->tool().lockstep;
+    if (hand.proxy && hand.proxy->is_fading() && (!in_lockstep || hand.why_not)) {
+      add(now + kFadeStep);
     }
+    const auto timeout = duration(core_.parameters().pose_timeout_sec);
+    if (!hand.shapes.empty()) add(hand.shapes.front().since + timeout);
+    if (!hand.why_not && hand.heard && !hand.stamp.isZero()) add(*hand.heard + timeout);
   }
   if (!next) return std::nullopt;
   return core_.loop().now() + (*next - now);

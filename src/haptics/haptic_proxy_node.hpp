@@ -3,6 +3,7 @@
 #include <ros/node_handle.h>
 
 #include <chrono>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -24,8 +25,9 @@ namespace organ_collision {
 /// The node haptic_proxy. It moves one proxy for each tool, against all organs. It has the same
 /// Inbox for messages as the collision node. Each pose of a hand causes one tick of its proxy,
 /// unless the node lags behind. Poses on TF are looked up after each batch of messages. While a
-/// force fades or rises, the node makes more ticks with the last pose. One thread does all this
-/// (node_core.hpp) and owns the GL contexts. The background thread inspects surfaces, and loads new
+/// force fades or rises, the node makes more ticks with the last pose. A tool in lockstep instead
+/// has one tick for each shape of an organ. One thread does all this (node_core.hpp) and owns the
+/// GL contexts. The background thread inspects surfaces, and loads new
 /// tools and parameters.
 class HapticProxyNode {
  public:
@@ -41,6 +43,14 @@ class HapticProxyNode {
  private:
   using Core = NodeCore<HapticProxyParameters>;
   using Time = ToolProxy::Time;
+  using SharedShape = std::shared_ptr<const TriangleMesh>;
+
+  /// A shape of an organ that a tool in lockstep has not answered yet.
+  struct AwaitedShape {
+    std::string organ;  ///< empty: all organs have their latest shapes
+    Timed<SharedShape> shape = {};
+    Time since = {};  ///< when the shape came
+  };
 
   /// A tool's proxy, and what the node knows of its hand.
   struct Hand {
@@ -55,6 +65,7 @@ class HapticProxyNode {
     bool had_answer = false;                ///< there was an answer since the start
     std::optional<Rejection> why_not = {};  ///< why there is no answer now; empty: there is one
     Time told = {};                         ///< when something about the hand was last published
+    std::deque<AwaitedShape> shapes = {};   ///< in lockstep: the oldest first
   };
 
   Core::Callbacks callbacks();
@@ -62,13 +73,19 @@ class HapticProxyNode {
   void follow_waiting_hands();
   void follow_hands();
   void follow_hand(std::size_t tool, Time now);
+  void await_shape(const OrganUpdate& update);
+  void answer_shapes(std::size_t tool, Time now);
+  std::optional<Timed<ToolPose>> pose_for(std::size_t tool, const AwaitedShape& awaited, Time now);
+  void check_proxy(std::size_t tool) const;
   AgeLimits age_limits() const {
     return {core_.parameters().mesh_timeout_sec, core_.parameters().frame_timeout_sec};
   }
   Timed<ToolPose> latest_pose(std::size_t tool) const;
   ProxyScene scene_at(Time now);
+  ProxyScene scene_of(const AwaitedShape& awaited);
   bool is_due(std::size_t tool, ros::Time stamp, bool have_organs_moved, Time now);
-  void tick(Hand& hand, const Timed<ToolPose>& pose, const ProxyScene& scene, Time now);
+  void tick(Hand& hand, const Timed<ToolPose>& pose, const ProxyScene& scene, Time now,
+            const std::string& answered_organ = "");
   std::vector<ProxyView> views() const;
   void lose(std::size_t tool, const Rejection& why, Time now);
   std::optional<SteadyTime> next_deadline();

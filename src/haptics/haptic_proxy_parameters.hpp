@@ -4,23 +4,17 @@
 #include <map>
 #include <string>
 
-#include "haptics/forces.hpp"
 #include "node/parameters/node_parameters.hpp"
 #include "organ_collision/query/haptic_proxy.hpp"
 #include "organ_collision/ros/names.hpp"
+#include "topic_names.hpp"
 #include "wrench_limiter.hpp"
 
-/// The names of haptic_proxy in the ROS graph, besides those of the collision node and of all nodes
-/// with forces.
+/// The names of parameters that the code or messages to the user mention.
 namespace organ_collision::names {
 
-inline constexpr char kHapticProxy[] = "haptic_proxy";
-/// The topics of a tool, below ~TOOL.
-inline constexpr char kProxy[] = "proxy", kState[] = "state";
-/// The name of a proxy's TF frame is the name of its tool and this suffix.
-inline constexpr char kProxyFrame[] = "_proxy";
-/// The names of parameters that messages to the user mention.
-inline constexpr char kMaxTorque[] = "max_torque";
+inline constexpr char kStiffness[] = "stiffness";
+inline constexpr char kMaxForce[] = "max_force", kMaxTorque[] = "max_torque";
 inline constexpr char kMeshTimeoutSec[] = "mesh_timeout_sec";
 inline constexpr char kFrameTimeoutSec[] = "frame_timeout_sec";
 
@@ -83,7 +77,7 @@ inline ParameterTable table_of(HapticProxyParameters& p) {
       },
       "TF frame in which proxies move and forces are given. If its organ is removed, that of "
       "another one is chosen, and proxies are placed anew");
-  t.number(names::kStiffness, p.stiffness, kStiffnesses,
+  t.number(names::kStiffness, p.stiffness, {1e-3, 1e5},
            "[N/m] force for each metre between hand and proxy")
       .live();
   t.number(
@@ -92,7 +86,7 @@ inline ParameterTable table_of(HapticProxyParameters& p) {
        "of 2 ms, while the proxy is held back. It never reverses or doubles the spring's force")
       .live();
   t.number(
-       names::kMaxForce, p.max_force, kForces,
+       names::kMaxForce, p.max_force, {0.0, 1e4, false, true},
        "[N] larger forces are clipped to it. The torque and the forces on vertices shrink by the "
        "same factor. A lower limit holds within 10 ms, whatever the rates are. .inf: no limit")
       .live();
@@ -123,7 +117,8 @@ inline ParameterTable table_of(HapticProxyParameters& p) {
       .live();
   t.number("pose_timeout_sec", p.pose_timeout_sec, kTimerPeriod,
            "[s] of wall time after the last pose of the hand, the force fades. Raise it for poses "
-           "slower than 100 Hz");
+           "slower than 100 Hz. A tool with `lockstep` waits so long for its pose at the stamp of "
+           "a shape, and then rests");
   t.number(
       names::kMeshTimeoutSec, p.mesh_timeout_sec, kNotNegative,
       "[s] if the last shape of any organ, or the last transform of its frame, came longer ago "

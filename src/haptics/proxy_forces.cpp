@@ -89,6 +89,11 @@ void add_balance(const ProxyAnswer& answer, std::vector<Place>& places) {
 
 }  // namespace
 
+double share_within_limit(const Vector3d& load, double most) {
+  const double magnitude = load.stableNorm();
+  return magnitude <= most ? 1.0 : most / magnitude;
+}
+
 Vector3d force_of(const std::vector<OrganForce>& forces) {
   Vector3d sum = Vector3d::Zero();
   for (const OrganForce& of_organ : forces) sum += of_organ.force;

@@ -1,14 +1,29 @@
 #pragma once
 
+#include <ros/time.h>
+
 #include <Eigen/Core>
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "haptics/forces.hpp"
 #include "organ_collision/query/haptic_proxy.hpp"
 
 namespace organ_collision {
+
+/// A force of the tissue on the tool, at a point of a face. In the organ's frame unless noted.
+struct FaceForce {
+  std::uint32_t face;
+  std::int32_t link;                        ///< FaceContact::link
+  FaceIndices vertices;                     ///< the indices of the face's corners
+  Eigen::Vector3d barycentric;              ///< of the point, in the order of `vertices`
+  Eigen::Vector3d place;                    ///< [m] the point
+  Eigen::Vector3d force = {0.0, 0.0, 0.0};  ///< [N]
+};
+
+/// The factor in (0, 1] that reduces a force [N] or a torque [N m] to the magnitude `most` > 0, if
+/// it is larger.
+double share_within_limit(const Eigen::Vector3d& load, double most);
 
 /// The force of one organ on the hand, and the forces at the organ's faces.
 struct OrganForce {
@@ -18,6 +33,8 @@ struct OrganForce {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< [N] on the hand, in the proxy's frame
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< [N m] about the tool's centre in the hand
   std::vector<FaceForce> on_faces = {};  ///< the tissue's forces on the proxy, in the organ's frame
+  ros::Time mesh_stamp =
+      {};  ///< of this shape; zero: there is none. proxy_forces() does not set it
 
   bool is_zero() const { return force.isZero(0.0) && torque.isZero(0.0) && on_faces.empty(); }
   void scale(double factor);

@@ -1,19 +1,16 @@
 #include "proxy_publisher.hpp"
 
 #include <geometry_msgs/PoseStamped.h>
-#include <organ_collision/ContactArray.h>
 #include <ros/names.h>
 #include <tf2_eigen/tf2_eigen.h>
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <iterator>
 
 #include "common/messages/conversions.hpp"
 #include "common/messages/text.hpp"
-#include "haptics/basins.hpp"
-#include "node/steps/contact_array.hpp"
 #include "organ_collision/ros/names.hpp"
+#include "places.hpp"
 
 namespace organ_collision {
 namespace {
@@ -29,10 +26,6 @@ static_assert(ProxyState::NO_ANSWER == static_cast<int>(ProxyStatus::kNoAnswer) 
 
 /// [messages] Late forces would be wrong, so only a few messages may wait.
 constexpr std::uint32_t kQueue = 20;
-/// The most places of a state.
-constexpr std::size_t kMostPlaces = 32;
-/// [m] Faces around a corner whose nearest points are nearer to each other than this are one place.
-constexpr double kSamePlace = 1e-6;
 
 std_msgs::Header header_of(const ProxyReport& report) {
   std_msgs::Header header;
@@ -48,85 +41,6 @@ geometry_msgs::Wrench wrench_about_origin(const ProxyReport& report, const Vecto
   wrench.force = to_vector(force);
   wrench.torque = to_vector(torque + report.center.cross(force));
   return wrench;
-}
-
-/// The contacts that basins_of() compares: those of one organ.
-std::vector<Contact> contacts_with(const ProxyAnswer& answer, std::size_t organ) {
-  std::vector<Contact> contacts;
-  for (const ProxyFace& at : answer.contacts) {
-    if (at.organ == organ) contacts.push_back(to_message(at.contact));
-  }
-  return contacts;
-}
-
-/// [N] The published force of the proxy on faces of an organ, by face and link, in the proxy's
-/// frame. `index`: of the organ in the scene.
-std::map<std::pair<std::uint32_t, std::int32_t>, Vector3d> forces_on(const ProxyReport& report,
-                                                                     std::size_t index) {
-  const ProxyOrgan& organ = report.scene->organs[index];
-  const std::string& name = report.scene->sources[index]->name();
-  std::map<std::pair<std::uint32_t, std::int32_t>, Vector3d> forces;
-  for (const OrganForce& of_organ : report.forces) {
-    if (of_organ.organ != name || of_organ.topology != organ.shape->topology()) continue;
-    for (const FaceForce& at : of_organ.on_faces) {
-      const Vector3d force = -(organ.T_organ_proxy.linear().transpose() * at.force);
-      forces.insert({{at.face, at.link}, Vector3d::Zero()}).first->second += force;
-    }
-  }
-  return forces;
-}
-
-/// What ProxyState.contacts has. `report`: with an answer.
-std::vector<ProxyContact> places_of(const ProxyReport& report) {
-  std::vector<ProxyContact> places;
-  for (std::size_t organ = 0; organ < report.scene->organs.size(); ++organ) {
-    const std::vector<Contact> contacts = contacts_with(*report.answer, organ);
-    if (contacts.empty()) continue;
-    const std::vector<std::size_t> basins = basins_of(contacts);
-    const auto forces = forces_on(report, organ);
-    std::vector<Vector3d> of_patch(contacts.size(), Vector3d::Zero());
-    for (std::size_t i = 0; i < contacts.size(); ++i) {
-      const auto force = forces.find({contacts[i].face, contacts[i].link});
-      if (force != forces.end()) of_patch[basins[i]] += force->second;
-    }
-    std::size_t i = 0;
-    for (const ProxyFace& at : report.answer->contacts) {
-      if (at.organ != organ) continue;
-      const std::size_t index = i++;
-      if (basins[index] != index) continue;
-      ProxyContact& place = places.emplace_back();
-      place.organ = report.scene->sources[organ]->name();
-      place.link = contacts[index].link;
-      place.face = contacts[index].face;
-      place.vertices = contacts[index].vertices;
-      place.barycentric = contacts[index].barycentric;
-      place.point = contacts[index].point;
-      place.normal = contacts[index].normal;
-      place.distance = -contacts[index].depth;
-      place.velocity = to_vector(tissue_velocity(*report.scene, organ, at.contact));
-      place.force = to_vector(of_patch[index]);
-    }
-  }
-  std::stable_sort(places.begin(), places.end(),
-                   [](const auto& a, const auto& b) { return a.distance < b.distance; });
-  std::vector<ProxyContact> different;
-  for (const ProxyContact& place : places) {
-    const auto same = std::find_if(different.begin(), different.end(), [&](const auto& other) {
-      return other.organ == place.organ && other.link == place.link &&
-             (to_eigen(other.point) - to_eigen(place.point)).norm() < kSamePlace;
-    });
-    if (same != different.end()) {
-      same->force = to_vector(to_eigen(same->force) + to_eigen(place.force));
-    } else {
-      different.push_back(place);
-    }
-  }
-  // Where there are more places than a state has, those that bear a force stay.
-  for (auto at = different.end(); different.size() > kMostPlaces && at != different.begin();) {
-    --at;
-    if (to_eigen(at->force).isZero(0.0)) at = different.erase(at);
-  }
-  return different;
 }
 
 }  // namespace
@@ -153,6 +67,18 @@ ProxyState state_of(const ProxyReport& report) {
   return state;
 }
 
+geometry_msgs::WrenchStamped wrench_at_tip(const ProxyReport& report) {
+  const Eigen::Isometry3d& T_frame_tip = *report.tip_frame;
+  const Eigen::Matrix3d R_tip_frame = T_frame_tip.linear().transpose();
+  const Vector3d force = force_of(report.forces), arm = report.center - T_frame_tip.translation();
+  geometry_msgs::WrenchStamped message;
+  message.header.stamp = report.stamp;
+  message.header.frame_id = tip_frame_of(report.tool);
+  message.wrench.force = to_vector(R_tip_frame * force);
+  message.wrench.torque = to_vector(R_tip_frame * (torque_of(report.forces) + arm.cross(force)));
+  return message;
+}
+
 geometry_msgs::WrenchStamped wrench_of(const ProxyReport& report, const OrganForce& of_organ) {
   geometry_msgs::WrenchStamped message;
   message.header = header_of(report);
@@ -161,13 +87,26 @@ geometry_msgs::WrenchStamped wrench_of(const ProxyReport& report, const OrganFor
 }
 
 VertexForces vertex_forces_of(const ProxyReport& report, const OrganForce& of_organ) {
-  ContactArray about;
-  about.header.stamp = report.stamp;
-  about.header.frame_id = of_organ.frame;
-  about.organ = of_organ.organ;
-  about.topology = of_organ.topology;
-  about.tool = report.tool.name;
-  return vertex_forces(about, of_organ.on_faces);
+  std::map<std::uint32_t, Vector3d> at_vertices;
+  for (const FaceForce& at : of_organ.on_faces) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vector3d force = -at.barycentric[k] * at.force;
+      if (force.isZero(0.0)) continue;
+      at_vertices.insert({at.vertices[k], Vector3d::Zero()}).first->second += force;
+    }
+  }
+  VertexForces message;
+  message.header.stamp = report.stamp;
+  message.header.frame_id = of_organ.frame;
+  message.mesh_stamp = of_organ.mesh_stamp;
+  message.organ = of_organ.organ;
+  message.topology = of_organ.topology;
+  message.tool = report.tool.name;
+  for (const auto& [vertex, force] : at_vertices) {
+    message.vertices.push_back(vertex);
+    message.forces.push_back(to_vector(force));
+  }
+  return message;
 }
 
 ProxyPublisher::ProxyPublisher(const ros::NodeHandle& private_node, FailureLog& failed,
@@ -187,7 +126,9 @@ void ProxyPublisher::set_tools(const std::vector<ToolParameters>& tools) {
     topics[tool.name] = {
         private_node_.advertise<geometry_msgs::PoseStamped>(ros::names::append(name, names::kProxy),
                                                             kQueue),
-        private_node_.advertise<ProxyState>(ros::names::append(name, names::kState), kQueue)};
+        private_node_.advertise<ProxyState>(ros::names::append(name, names::kState), kQueue),
+        private_node_.advertise<geometry_msgs::WrenchStamped>(
+            ros::names::append(name, names::kWrench), kQueue)};
   }
   tools_ = std::move(topics);
   for (auto pair = pairs_.begin(); pair != pairs_.end();) {
@@ -201,11 +142,14 @@ void ProxyPublisher::publish(const ProxyReport& report) {
     PairTopics* pair = pair_of(of_organ.organ, report.tool.name);
     if (pair) pair->wrench.publish(wrench_of(report, of_organ));
   }
+  if (report.tip_frame) topics.wrench.publish(wrench_at_tip(report));
   publish_proxy(report, topics);
   topics.state.publish(state_of(report));
   for (const OrganForce& of_organ : report.forces) {
     PairTopics* pair = pair_of(of_organ.organ, report.tool.name);
     if (!pair || pair->vertex_forces.getNumSubscribers() == 0) continue;
+    // Each shape has one answer, also where the tool answers the shapes of several organs.
+    if (!report.answered_organ.empty() && of_organ.organ != report.answered_organ) continue;
     pair->vertex_forces.publish(vertex_forces_of(report, of_organ));
   }
 }

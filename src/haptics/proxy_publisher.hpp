@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "common/messages/failure_log.hpp"
-#include "haptics/forces.hpp"
 #include "node/publishing/diagnostics.hpp"
 #include "tool_proxy.hpp"
+#include "topic_names.hpp"
 
 namespace organ_collision {
 
@@ -38,8 +38,12 @@ struct ProxyCounters {
 /// Its contacts are the nearest places of all locally convex patches of tissue near the proxy, each
 /// with the force on the whole patch.
 ProxyState state_of(const ProxyReport& report);
+/// The whole wrench about the origin of the tip frame, in its axes. `report`: with a tip_frame.
+geometry_msgs::WrenchStamped wrench_at_tip(const ProxyReport& report);
 /// `of_organ`: one of report.forces.
 geometry_msgs::WrenchStamped wrench_of(const ProxyReport& report, const OrganForce& of_organ);
+/// Minus the force at each face is divided among the face's vertices by the barycentric coordinates
+/// of its point. Therefore, the sums of forces and of torques are minus those at the faces.
 VertexForces vertex_forces_of(const ProxyReport& report, const OrganForce& of_organ);
 
 /// Publishes reports about tools. Wrenches come first, because a hand waits for them.
@@ -55,7 +59,7 @@ class ProxyPublisher {
 
  private:
   struct ToolTopics {
-    ros::Publisher proxy, state;
+    ros::Publisher proxy, state, wrench;
     ros::Time framed = {};  ///< the last transform's stamp; TF warns if it is repeated
   };
   struct PairTopics {

@@ -120,7 +120,7 @@ Rejection no_organ() {
 
 ProxyScene proxy_scene(const OrganRegistry& organs, const TransformBuffer& transforms,
                        const std::string& frame, const AgeLimits& limits, ros::Time now,
-                       const ShapeOf& shape_of) {
+                       const ShapeOf& shape_of, ros::Time at) {
   if (organs.organs().empty()) throw no_organ();
   ProxyScene scene{frame, {}, {}};
   for (const auto& [name, organ] : organs.organs()) {
@@ -128,7 +128,8 @@ ProxyScene proxy_scene(const OrganRegistry& organs, const TransformBuffer& trans
       throw Rejection(ContactArray::STALE_MESH, reason_of(ContactArray::STALE_MESH),
                       stale_message(name, organ.latest(), now, limits.mesh_sec));
     }
-    const auto T_organ_proxy = look_up(transforms, organ.frame(), frame, ros::Time(0));
+    auto T_organ_proxy = look_up(transforms, organ.frame(), frame, at);
+    if (!T_organ_proxy.found) T_organ_proxy = look_up(transforms, organ.frame(), frame, {});
     if (!T_organ_proxy.found) {
       throw Rejection(ContactArray::NO_TRANSFORM, reason_of(ContactArray::NO_TRANSFORM),
                       "organ '" + name + "': " + T_organ_proxy.why_not);
@@ -136,10 +137,12 @@ ProxyScene proxy_scene(const OrganRegistry& organs, const TransformBuffer& trans
     check_age(transforms, organ.frame(), {frame}, limits, now);
     check_age(transforms, frame, {organ.frame()}, limits, now);
     scene.stamps.push_back(T_organ_proxy.found->stamp);
-    scene.organs.push_back({name_of_history(organ), shape_of(organ), organ.latest().topology(),
-                            T_organ_proxy.found->value});
+    auto shape = shape_of(organ);
+    scene.organs.push_back({name_of_history(organ), std::move(shape.value),
+                            organ.latest().topology(), T_organ_proxy.found->value});
     scene.sources.push_back(&organ);
     TissueMotion& motion = scene.motions.emplace_back(motion_of(organ, now));
+    motion.stamp = shape.stamp;
     const ros::Time stamp = T_organ_proxy.found->stamp;
     if (stamp.toSec() > kVelocitySec && transforms.goes_on(organ.frame(), {frame}, stamp, now)) {
       const ros::Time before = stamp - ros::Duration(kVelocitySec);

@@ -39,6 +39,7 @@ struct TissueMotion {
   /// The latest shape, and OrganShape::moves_from(). Null: the shape rests.
   std::shared_ptr<const TriangleMesh> shape_before = nullptr, shape_after = nullptr;
   double shape_sec = 0.0;                          ///< [s] between both shapes
+  ros::Time stamp = {};                            ///< of the shape that the organ has in the scene
   std::optional<Eigen::Isometry3d> T_before = {};  ///< T_organ_proxy kVelocitySec ago; empty: rests
 };
 
@@ -79,16 +80,16 @@ struct AgeLimits {
 /// The reason that is given if there is no organ.
 Rejection no_organ();
 
-/// The shape of an organ in a tick.
-using ShapeOf = std::function<std::shared_ptr<const TriangleMesh>(const DeformableOrgan&)>;
+/// The shape of an organ in a tick, with its stamp.
+using ShapeOf = std::function<Timed<std::shared_ptr<const TriangleMesh>>(const DeformableOrgan&)>;
 
-/// The organs with the shapes that `shape_of` tells, at their latest poses in `frame`. They are
-/// valid as long as the registry does not change. Throws Rejection if there is no organ, if an
-/// organ has no transform to the frame, or if its shape or a transform came longer ago than
-/// allowed.
+/// The organs with the shapes that `shape_of` tells, at their poses in `frame` at the time `at`. If
+/// `at` is zero or this pose is not known, the latest pose counts. They are valid as long as the
+/// registry does not change. Throws Rejection if there is no organ, if an organ has no transform to
+/// the frame, or if its shape or a transform came longer ago than allowed.
 ProxyScene proxy_scene(const OrganRegistry& organs, const TransformBuffer& transforms,
                        const std::string& frame, const AgeLimits& limits, ros::Time now,
-                       const ShapeOf& shape_of);
+                       const ShapeOf& shape_of, ros::Time at = {});
 
 /// Throws Rejection if the last transform of a frame in the chain from `frame` upwards came longer
 /// ago than allowed. The chain ends below the first frame that also carries all of `others`: what

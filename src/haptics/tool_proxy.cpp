@@ -22,6 +22,10 @@ geometry_msgs::Pose pose_of(const ToolParameters& tool, const ToolPose& pose) {
   return tf2::toMsg(tip);
 }
 
+std::string tip_frame_of(const ToolParameters& tool) {
+  return tool.tip_frame.empty() ? tool.link_frame(tool.links.front()) : tool.tip_frame;
+}
+
 namespace {
 
 ToolPose operator*(const Eigen::Isometry3d& T_new_old, ToolPose pose) {
@@ -96,6 +100,7 @@ std::vector<OrganForce> ToolProxy::forces(const ProxyAnswer& answer, const Proxy
   for (std::size_t i = 0; i < forces.size(); ++i) {
     forces[i].organ = scene.sources[i]->name();
     forces[i].frame = scene.sources[i]->frame();
+    forces[i].mesh_stamp = scene.motions[i].stamp;
   }
   if (!force_of(forces).allFinite() || !torque_of(forces).allFinite()) {
     throw Rejection(ContactArray::INVALID_REQUEST, "no force",
@@ -108,7 +113,9 @@ std::vector<OrganForce> ToolProxy::forces(const ProxyAnswer& answer, const Proxy
 void ToolProxy::set_forces(ProxyReport& report, std::vector<OrganForce> target, Time now) {
   WrenchLimits limits = wrench_limits(parameters_);
   if (lets_go_) limits.force = limits.torque = 0.0;
+  if (tool_.lockstep && report.answer) limits.force_rate = limits.torque_rate = kUnlimited;
   report.center = center_;
+  report.tip_frame = tip_frame_;
   report.forces = limiter_.follow(std::move(target), limits, now);
   report.is_fading = limiter_.is_on_its_way();
   report.clipped_by = limiter_.clipped_by();
@@ -144,6 +151,7 @@ void ToolProxy::reset() {
 void ToolProxy::change_frame(const std::string& frame, const Eigen::Isometry3d& T_new_old) {
   frame_ = frame;
   center_ = T_new_old * center_;
+  if (tip_frame_) tip_frame_ = T_new_old * *tip_frame_;
   if (hand_) hand_ = T_new_old * *hand_;
   if (held_) held_ = T_new_old * *held_;
   limiter_.rotate(T_new_old.linear());

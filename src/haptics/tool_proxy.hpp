@@ -37,11 +37,18 @@ struct ProxyReport {
   /// The parameter whose limit reduced the forces. Null: no limit reduced them.
   const char* clipped_by = nullptr;
   double tick_sec = 0.0;  ///< [s] how long HapticProxy::follow() took
+  /// The pose of the tool's tip frame (tip_frame_of()) in `frame`. Empty: it was never known.
+  std::optional<Eigen::Isometry3d> tip_frame = {};
+  /// The organ whose shape this answers, if the tool is in lockstep. Empty: all organs.
+  std::string answered_organ = {};
 };
 
 /// A tool's pose as messages give it: the pose of the tip of its shaft, with the z axis from trocar
 /// to tip. For a tool without a shaft, it is the pose of the first link.
 geometry_msgs::Pose pose_of(const ToolParameters& tool, const ToolPose& pose);
+
+/// The TF frame in which the tip of a tool rests: that of the tip, or of the first link.
+std::string tip_frame_of(const ToolParameters& tool);
 
 /// The velocity [m/s] at which a pull [m] changes, from its values at the stamps of the poses:
 /// finite differences through a low-pass of first order. This is the filtered derivative of PID
@@ -66,7 +73,8 @@ class PullVelocity {
 };
 
 /// The proxy of one tool and its force. Force and torque about the tool's centre, and their rates
-/// of change, are limited. They fade when answers end.
+/// of change, are limited. They fade when answers end. In lockstep, the rates are limited only when
+/// answers end: each answer has the whole force.
 class ToolProxy {
  public:
   using Time = WrenchLimiter::Time;
@@ -90,6 +98,10 @@ class ToolProxy {
   /// whatever the parameters are.
   void let_go() { lets_go_ = true; }
 
+  /// Sets the pose of the tool's tip frame, for the next reports.
+  void set_tip_frame(const Eigen::Isometry3d& T_frame_tip) { tip_frame_ = T_frame_tip; }
+
+  const ToolParameters& tool() const { return tool_; }
   /// The last pose of the hand that had an answer.
   const std::optional<ToolPose>& hand() const { return hand_; }
   /// The answer to the last pose; null if there is none. Valid until the next follow() or reset().
@@ -119,6 +131,7 @@ class ToolProxy {
   const ProxyAnswer* answer_ = nullptr;
   std::string frame_;                    ///< the frame of the published forces and the next three
   std::optional<ToolPose> hand_, held_;  ///< the last poses of the hand and the proxy
+  std::optional<Eigen::Isometry3d> tip_frame_;        ///< ProxyReport::tip_frame
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();  ///< [m] of the tool in hand_
   PullVelocity velocity_;           ///< of the proxy relative to the hand, in resting tissue
   std::vector<ProxyOrgan> organs_;  ///< at the last tick

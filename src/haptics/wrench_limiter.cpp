@@ -76,8 +76,9 @@ void WrenchLimiter::go_towards(std::vector<OrganForce>& target, const WrenchLimi
                                double seconds) const {
   const Vector3d force = force_of(target) - force_of(forces_);
   const Vector3d torque = torque_of(target) - torque_of(forces_);
-  const double of_force = share_within_limit(force, limits.force_rate * seconds);
-  const double of_torque = share_within_limit(torque, limits.torque_rate * seconds);
+  const auto most = [seconds](double rate) { return rate == kUnlimited ? rate : rate * seconds; };
+  const double of_force = share_within_limit(force, most(limits.force_rate));
+  const double of_torque = share_within_limit(torque, most(limits.torque_rate));
   for (OrganForce& of_organ : target) {
     const OrganForce* before = find(forces_, of_organ.organ);
     const OrganForce nothing;

@@ -12,7 +12,7 @@ namespace organ_collision {
 /// What the force on a hand, and the torque about the tool's centre, must not exceed.
 struct WrenchLimits {
   double force, torque;            ///< [N], [N m]
-  double force_rate, torque_rate;  ///< [N/s], [N m/s]
+  double force_rate, torque_rate;  ///< [N/s], [N m/s]; kUnlimited: no limit
 };
 
 /// Limits the force and the torque on a hand, and how fast both change, whatever the reason: tissue

@@ -38,7 +38,7 @@ LONGEST_LIFE = 0.3  # [s] from then on until the next kill
 LONGEST_START = 0.6  # [s] of a life that ends while the node starts
 MOST_MEMORY = 400.0  # [MB] that the process may have more than before the garbage
 OPEN = 50  # connections that are left half open at a time
-OTHERS = {'/haptic_proxy': {'tools': []}, '/organ_mesh_adapter': {'organs': []}, '/contact_adapter': {}}
+OTHERS = {'/haptic_proxy': {'tools': []}, '/organ_mesh_adapter': {'organs': []}}
 NOT_LISTED = 'the ROS master does not list this node any more'
 
 

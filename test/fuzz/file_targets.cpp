@@ -10,8 +10,6 @@
 #include "adapters/mesh_adapter_parameters.hpp"
 #include "common/messages/robot_reply.hpp"
 #include "common/program/user_input.hpp"
-#include "contact_adapter/contact_adapter_parameters.hpp"
-#include "contact_adapter/contact_answer.hpp"
 #include "fuzz_input.hpp"
 #include "haptics/haptic_proxy_parameters.hpp"
 #include "picking/gl/drawing.hpp"
@@ -134,16 +132,11 @@ void load_all(const YamlParameters& file) {
   });
   load([&] {
     const auto parameters = parse_parameters<HapticProxyParameters>(all);
+    demand(parameters.max_force > 0.0, "the largest force is positive");
     for (const ToolParameters& tool : parameters.tools) proxy_settings(parameters, tool);
     changed(parameters, all);
   });
-  load([&] {
-    const auto parameters = parse_parameters<ContactAdapterParameters>(all);
-    demand(parameters.max_force > 0.0, "the largest force is positive");
-    changed(parameters, all);
-  });
   load([&] { parse_parameters<MeshAdapterParameters>(all); });
-  if (all.hasMember("tools")) shaft_radius(all["tools"], "hook");
 }
 
 const FuzzTarget parameters_target("parameters", [](const std::uint8_t* data, std::size_t size) {

@@ -15,8 +15,8 @@ import sys
 
 import genpy
 from geometry_msgs.msg import Point, Pose, PoseStamped, Quaternion, TransformStamped, Vector3
-from organ_collision.msg import (Clearance, Contact, ContactArray, LinkMotion, OrganMesh, OrganVertices, RobotLink,
-                                 RobotRecord, RobotShape, ToolMotion)
+from organ_collision.msg import (LinkMotion, OrganMesh, OrganVertices, RobotLink, RobotRecord, RobotShape,
+                                 ToolMotion)
 from organ_collision.srv import QueryCollisionBatchRequest, QueryCollisionRequest
 from pcl_msgs.msg import PolygonMesh, Vertices
 from sensor_msgs.msg import PointCloud2, PointField
@@ -163,32 +163,6 @@ def mesh_adapter():
                 header(), 0xffffffff, 0xffffffff, fields, False, 12, 48, bytes(48), True))}
 
 
-def contact(face=0, normal=(0, 0, -1), depth=0.002, link=-1):
-    return Contact(face=face, vertices=[0, 1, 2], link=link, fraction=0.5, point=Point(0.1, 0.2, 0),
-                   normal=Vector3(*normal), barycentric=[0.2, 0.3, 0.5], shaft=1.0, depth=depth,
-                   on_organ=Point(0.1, 0.2, 0))
-
-
-def contact_adapter():
-    def answer(*contacts, mode=1, **more):
-        return ContactArray(header=header(), organ='liver', tool='hook', links=['jaw'], mode=mode, topology=1,
-                            contacts=list(contacts), **more)
-    inside = ContactArray(header=header(), organ='liver', tool='hook', mode=1, topology=1)
-    inside.placement.tip = 2
-    inside.clearance = Clearance(state=2, distance=0.01, vertices=[0, 1, 2], barycentric=[0.2, 0.3, 0.5],
-                                 link=-1, normal=Vector3(0, 0, 1), normal_defined=True)
-    return {'deeper': record(1, answer(contact())) + record(1, answer(contact(depth=0.004))) + record(1, answer()),
-            'unknown_radius': record(0, answer(contact(), contact(1, (0, 0.6, -0.8)))),
-            'past': record(1, answer(contact(depth=0.008), mode=0)) + record(1, answer(contact(depth=0.012))) + record(
-                1, answer(contact(normal=(0, 0, 1), depth=0.008))),
-            'link': record(1, answer(contact(link=0), contact(1, link=0))),
-            'inside': record(1, inside) * 2,
-            'paper': record(1, answer(contact(), mode=2)),
-            'failed': record(1, answer(status=3, message='stale')),
-            'not_unit': record(1, answer(contact(normal=(0, 0, 2)))),
-            'deep': record(1, answer(contact(depth=1e300)))}
-
-
 def robot_reply():
     pose = [0.1, 0.2, 0.3, 0, 0, 0, 1]
     shape = lambda kind, *size: RobotShape(kind=kind, pose=pose, size=list(size) + [0] * (3 - len(size)))
@@ -203,7 +177,7 @@ def robot_reply():
             'huge_count': struct.pack('<BII', 2, 0, 2**31)}
 
 
-CORPORA = [contact_adapter, haptic_proxy, mesh_adapter, node_messages, query_requests, robot_reply]
+CORPORA = [haptic_proxy, mesh_adapter, node_messages, query_requests, robot_reply]
 
 
 def files():

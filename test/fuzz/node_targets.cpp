@@ -265,8 +265,9 @@ class ProxyNode {
       if (!pose.found) throw Rejection(ContactArray::NO_TRANSFORM, "no pose", pose.why_not);
       const ros::Time now(50);
       const ProxyScene scene =
-          proxy_scene(organs_, transforms_, frame_.name(), {}, now,
-                      [](const DeformableOrgan& organ) { return organ.latest().mesh; });
+          proxy_scene(organs_, transforms_, frame_.name(), {}, now, [](const auto& organ) {
+            return Timed<std::shared_ptr<const TriangleMesh>>{organ.latest().mesh, {}};
+          });
       ProxyReport report = hand_.proxy.follow(*pose.found, scene, hand_.now);
       report.scene = nullptr;  // It ends here.
       return report;

@@ -1,6 +1,5 @@
-// The tables of parameters of haptic_proxy, contact_adapter and organ_mesh_adapter.
+// The tables of parameters of haptic_proxy and organ_mesh_adapter.
 #include "adapters/mesh_adapter_parameters.hpp"
-#include "contact_adapter/contact_adapter_parameters.hpp"
 #include "haptics/haptic_proxy_parameters.hpp"
 #include "test/node/parameters/parameter_tables.hpp"
 
@@ -19,13 +18,6 @@ XmlRpcValue legal_parameters<HapticProxyParameters>() {
 }
 
 template <>
-XmlRpcValue legal_parameters<ContactAdapterParameters>() {
-  XmlRpcValue all;
-  all.begin();  // Makes it an empty group.
-  return all;
-}
-
-template <>
 XmlRpcValue legal_parameters<MeshAdapterParameters>() {
   XmlRpcValue all;
   all["organs"].setSize(0);
@@ -33,7 +25,6 @@ XmlRpcValue legal_parameters<MeshAdapterParameters>() {
 }
 
 INSTANTIATE_TYPED_TEST_SUITE_P(HapticProxy, ParameterTableTest, HapticProxyParameters);
-INSTANTIATE_TYPED_TEST_SUITE_P(ContactAdapter, ParameterTableTest, ContactAdapterParameters);
 INSTANTIATE_TYPED_TEST_SUITE_P(MeshAdapter, ParameterTableTest, MeshAdapterParameters);
 
 namespace {
@@ -82,7 +73,7 @@ TEST(HapticParameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
             "~frame is '/'; must be the name of a TF frame");
   EXPECT_EQ(refusal_of<HapticProxyParameters>("clearance", -1.5),
             "~clearance is '-1.5'; must be a number, more than 0, at most 0.1");
-  EXPECT_EQ(refusal_of<ContactAdapterParameters>("max_force", 0),
+  EXPECT_EQ(refusal_of<HapticProxyParameters>("max_force", 0),
             "~max_force is '0'; must be a number, more than 0, at most 10000, or .inf");
   XmlRpcValue tools;
   tools[0] = tools[1] = legal_parameters<HapticProxyParameters>()["tools"][0];

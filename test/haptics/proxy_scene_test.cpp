@@ -16,8 +16,8 @@ class ProxySceneTest : public OrganRegistryTest {
     return proxy_scene(store_, transforms_, frame, limits, ros::Time(8), latest_shape);
   }
 
-  static std::shared_ptr<const TriangleMesh> latest_shape(const DeformableOrgan& organ) {
-    return organ.latest().mesh;
+  static Timed<std::shared_ptr<const TriangleMesh>> latest_shape(const DeformableOrgan& organ) {
+    return {organ.latest().mesh, organ.latest().stamp};
   }
 
   static OrganMesh new_mesh() {
@@ -101,6 +101,19 @@ TEST_F(ProxySceneTest, HasEachOrganWithItsLatestShapeAndPose) {
   EXPECT_EQ(found.sources[1], &store_.at("liver"));
   EXPECT_TRUE(found.organs[1].T_organ_proxy.matrix().isIdentity(0.0));
   EXPECT_TRUE(found.organs[0].T_organ_proxy.isApprox(T_liver_kidney.inverse(), 1e-9));
+  EXPECT_EQ(found.motions[0].stamp, store_.at("kidney").latest().stamp);
+}
+
+TEST_F(ProxySceneTest, OrgansAreWhereTheyWereAtATime) {
+  apply(new_mesh(), ros::Time(7));
+  for (const double stamp : {6.0, 7.0}) {
+    set_point(transforms_, "world", "liver_frame", stamp, {stamp, 0.0, 0.0});
+  }
+  for (const auto& [at, x] : {std::pair(6.25, 6.25), {7.0, 7.0}, {0.0, 7.0}, {7.5, 7.0}}) {
+    const ProxyScene scene =
+        proxy_scene(store_, transforms_, "world", {}, ros::Time(8), latest_shape, ros::Time(at));
+    EXPECT_NEAR(scene.organs[0].T_organ_proxy.translation().x(), -x, 1e-9) << at;
+  }
 }
 
 TEST_F(ProxySceneTest, AnOrganWithoutATransformIsNamed) {

@@ -349,7 +349,9 @@ class RisingTissueTest : public ToolProxyTest {
       shapes_.update(organs_, now_);
     }
     scene_ = proxy_scene(organs_, transforms_, "liver", {}, now, [&](const auto& organ) {
-      return interpolates ? shapes_.shape(organ, now_) : organ.latest().mesh;
+      const OrganShape& latest = organ.latest();
+      return Timed<std::shared_ptr<const TriangleMesh>>{
+          interpolates ? shapes_.shape(organ, now_) : latest.mesh, latest.stamp};
     });
     return follow(proxy, hand, 1.0);
   }

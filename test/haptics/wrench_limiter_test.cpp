@@ -28,6 +28,12 @@ OrganForce organ_force(const std::string& organ, const Vector3d& force,
   return of_organ;
 }
 
+Vector3d sum_of(const std::vector<FaceForce>& forces) {
+  Vector3d sum = Vector3d::Zero();
+  for (const FaceForce& at : forces) sum += at.force;
+  return sum;
+}
+
 Vector3d sum_on_faces(const std::vector<OrganForce>& forces) {
   Vector3d sum = Vector3d::Zero();
   for (const OrganForce& of_organ : forces) sum += sum_of(of_organ.on_faces);

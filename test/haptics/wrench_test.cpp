@@ -29,6 +29,7 @@ using Time = ToolProxy::Time;
 constexpr double kRounding = 1e-9;  // [N], [N m]
 /// Of the names of organs in a scene, as after a restart of their sender.
 constexpr char kSuffix[] = " 1";
+constexpr char kTipFrame[] = "tip";
 
 Isometry3d random_frame(Random& random) {
   Isometry3d frame = Isometry3d::Identity();
@@ -59,7 +60,8 @@ class Judge {
         is_ball_(is_free_ && hand.tool.links.empty() && hand.shaft_length == 0.0) {}
 
   /// `T_world_frame`: where the frame of the report is. `organs`: those of the report.
-  void check(const ProxyReport& report, const std::vector<ProxyOrgan>& organs,
+  /// `mesh_stamp`: of their shapes.
+  void check(const ProxyReport& report, const std::vector<ProxyOrgan>& organs, ros::Time mesh_stamp,
              const Isometry3d& T_world_frame, const WrenchLimits& limits, Time now) {
     const ProxyState state = state_of(report);
     check_limits(state, T_world_frame, limits, now);
@@ -68,7 +70,10 @@ class Judge {
       const Load load = load_of(wrench_of(report, of_organ).wrench);
       of_organs.force += load.force;
       of_organs.torque += load.torque;
-      const Load on_organ = load_on(vertex_forces_of(report, of_organ), organs);
+      const VertexForces on_vertices = vertex_forces_of(report, of_organ);
+      const bool is_there = report.answer && find(organs, of_organ.organ) != organs.end();
+      EXPECT_EQ(on_vertices.mesh_stamp, is_there ? mesh_stamp : ros::Time());
+      const Load on_organ = load_on(on_vertices, organs);
       on_tissue.force += on_organ.force;
       on_tissue.torque += on_organ.torque;
       if (is_free_ && !report.is_fading) expect_opposite(on_organ, load, "of the organ");
@@ -76,6 +81,10 @@ class Judge {
     const Load whole = load_of(state.wrench);
     EXPECT_LE((of_organs.force - whole.force).norm(), kRounding);
     EXPECT_LE((of_organs.torque - whole.torque).norm(), kRounding);
+    const Load at_tip = from_tip(report);
+    EXPECT_LE((at_tip.force - whole.force).norm(), kRounding);
+    EXPECT_LE((at_tip.torque - whole.torque).norm(), kRounding);
+    if (!is_free_ && report.answer && !report.is_fading) expect_lever(on_tissue, whole, report);
     const bool is_free = state.state == ProxyState::FREE && !state.fading;
     EXPECT_FALSE(is_free && whole.force.norm() > 0.0);
     if (state.state == ProxyState::PUNCTURED) return;
@@ -115,13 +124,37 @@ class Judge {
     last_ = now;
   }
 
+  /// The wrench at the tip, in the frame of the report and about its origin.
+  static Load from_tip(const ProxyReport& report) {
+    const geometry_msgs::WrenchStamped message = wrench_at_tip(report);
+    EXPECT_EQ(message.header.frame_id, kTipFrame);
+    const Load load = load_of(message.wrench);
+    Load turned{Vector3d::Zero(), report.tip_frame->linear() * load.torque};
+    turned.add(report.tip_frame->linear() * load.force, report.tip_frame->translation());
+    return turned;
+  }
+
+  /// The trocar takes what does not turn the tool about it, but nothing along the axis.
+  static void expect_lever(const Load& on_tissue, const Load& on_hand, const ProxyReport& report) {
+    const ShaftAxis& axis = report.answer->proxy.axis;
+    const Vector3d along = (axis.tip - axis.trocar).normalized();
+    EXPECT_LE(std::abs(along.dot(on_tissue.force + on_hand.force)), kRounding);
+    const Vector3d torque = (axis.tip - axis.trocar).cross(on_hand.force) + on_tissue.torque -
+                            axis.trocar.cross(on_tissue.force);
+    EXPECT_LE((torque - along.dot(torque) * along).norm(), kRounding);
+  }
+
+  static std::vector<ProxyOrgan>::const_iterator find(const std::vector<ProxyOrgan>& organs,
+                                                      const std::string& name) {
+    return std::find_if(organs.begin(), organs.end(),
+                        [&](const ProxyOrgan& known) { return known.name == name + kSuffix; });
+  }
+
   /// The vertex forces, in the frame of the report.
   static Load load_on(const VertexForces& forces, const std::vector<ProxyOrgan>& organs) {
     Load load;
     for (std::size_t i = 0; i < forces.vertices.size(); ++i) {
-      const auto organ = std::find_if(organs.begin(), organs.end(), [&](const ProxyOrgan& known) {
-        return known.name == forces.organ + kSuffix;
-      });
+      const auto organ = find(organs, forces.organ);
       if (organ == organs.end()) throw std::logic_error("forces on an organ that is not there");
       const float* const at = &organ->shape->vertices()[3 * forces.vertices[i]];
       const Isometry3d T_frame_organ = organ->T_organ_proxy.inverse();
@@ -156,7 +189,9 @@ class Episode {
     tool_.parameters.radius = hand.tool.radius;
     tool_.parameters.freedom = hand.tool.freedom;
     tool_.links = hand.tool.links;
-    if (hand.tool.radius > 0.0) tool_.parameters.trocar_frame = tool_.parameters.tip_frame = "f";
+    tool_.parameters.lockstep = random.chance(0.3);
+    tool_.parameters.tip_frame = kTipFrame;
+    if (hand.tool.radius > 0.0) tool_.parameters.trocar_frame = kTipFrame;
     parameters_.picker.kind = PickerKind::kCpu;
     if (random.chance(0.5)) parameters_.damping = 1.0;
     if (random.chance(0.3)) parameters_.max_force = kUnlimited;
@@ -181,8 +216,14 @@ class Episode {
       stamp_ += ros::Duration(1e-3);
       const Timed<ToolPose> pose{moved(hand.next()), stamp_};
       const ProxyScene scene = present(tick);
-      judge.check(report(proxy, pose, scene), scene.organs, T_world_frame_,
-                  wrench_limits(parameters_), now_);
+      proxy.set_tip_frame(random_frame(random_));
+      const ProxyReport told = report(proxy, pose, scene);
+      WrenchLimits limits = wrench_limits(parameters_);
+      if (tool_.parameters.lockstep && told.answer) {
+        EXPECT_FALSE(told.is_fading) << "in lockstep, the whole force is there at once";
+        limits.force_rate = limits.torque_rate = kUnlimited;
+      }
+      judge.check(told, scene.organs, stamp_, T_world_frame_, limits, now_);
     }
     pressing = judge.pressing();
     fading = judge.fading();
@@ -226,7 +267,7 @@ class Episode {
       organ.T_organ_proxy = organ.T_organ_proxy * Eigen::Translation3d(shift_) * T_world_frame_;
       scene.organs.push_back(organ);
       scene.sources.push_back(&sources_[i]);
-      scene.motions.emplace_back();
+      scene.motions.emplace_back().stamp = stamp_;
     }
     return scene;
   }

@@ -16,10 +16,9 @@ SOURCE, DEVEL = sys.argv[1:3]
 SCRIPTS = [path for path in glob.glob(os.path.join(SOURCE, 'examples', '*.py')) if os.access(path, os.X_OK)] + [
     os.path.join(SOURCE, 'scripts', 'view.py')]
 # The programs of tests and benchmarks, besides the unit tests.
-NOT_SHIPPED = ('exactness_proof', 'proxy_proof', 'stab_forces', 'collision_benchmark', 'force_benchmark',
-               'end_to_end', 'pose_to_wrench', 'echo_node', 'ask_batches', 'motions_benchmark',
-               'soak', 'fuzz')
-NODES = ('organ_collision_node', 'haptic_proxy', 'contact_adapter', 'organ_mesh_adapter')
+NOT_SHIPPED = ('exactness_proof', 'proxy_proof', 'collision_benchmark', 'end_to_end', 'pose_to_wrench',
+               'echo_node', 'ask_batches', 'motions_benchmark', 'soak', 'fuzz')
+NODES = ('organ_collision_node', 'haptic_proxy', 'organ_mesh_adapter')
 
 
 def program(name):

@@ -2,7 +2,7 @@
 """What each layer (geometry <- picking <- query <- ros) and each program includes and links.
 
 Usage: layers_test.py SOURCE_FOLDER GEOMETRY_LIBRARY PICKING_LIBRARY QUERY_LIBRARY ROS_LIBRARY
-                      CONTACT_ADAPTER MESH_ADAPTER LIVER_SIMULATOR ROBOT_READER SNAPSHOT
+                      MESH_ADAPTER LIVER_SIMULATOR ROBOT_READER SNAPSHOT
 """
 
 import glob
@@ -74,7 +74,7 @@ class LayersTest(unittest.TestCase):
 
     def test_what_is_included_only_in_some_folders(self):
         message = re.compile(r'organ_collision/\w+\.h$')
-        adapters = ('ros/messages', 'forces', 'contact_adapter', 'mesh_adapter')
+        adapters = ('ros/messages', 'forces', 'mesh_adapter')
         for pattern, rooms in ((ROS, LAYERS[:-1]), (message, LAYERS[:-1]),
                                (GL, ['geometry', 'query', 'ros', 'snapshot']),
                                (NODE, adapters)):
@@ -88,11 +88,10 @@ class LayersTest(unittest.TestCase):
 
     def test_what_is_not_linked(self):
         """GL is loaded, and not linked."""
-        geometry, picking, query, ros, contact_adapter, mesh_adapter, simulator, robot_reader, snapshot = sys.argv[2:11]
+        geometry, picking, query, ros, mesh_adapter, simulator, robot_reader, snapshot = sys.argv[2:10]
         of_ros, other_layers = r'lib(ros|tf2|nodelet|xmlrpc)', r'liborgan_collision_(?!geometry)'
         for library, *patterns in (
             (geometry, of_ros, GL_LIBRARIES), (picking, of_ros, GL_LIBRARIES), (query, of_ros), (ros, PARSERS),
-            (contact_adapter, GL_LIBRARIES, PARSERS, other_layers, r'lib(tf2|nodelet)\w*\.so'),
             (mesh_adapter, GL_LIBRARIES, PARSERS, other_layers, r'lib(tf2|nodelet)\w*\.so'),
             (simulator, GL_LIBRARIES, PARSERS, other_layers),
             (robot_reader, GL_LIBRARIES, r'lib(roscpp|rosconsole|tf2|nodelet|xmlrpc)\.so'),

@@ -1,6 +1,5 @@
 #!/usr/bin/python3
-"""The launch files of examples/ and their programs do what the pages say. Other tests run forces.launch and the
-robots."""
+"""The launch files of examples/ and their programs do what the pages say. Other tests run the robots."""
 
 import re
 import signal
@@ -23,8 +22,8 @@ from support.node_client import LIMIT, ContactLog, Log, NodeClient, pose_stamped
 from support.processes import NodeStarter, program
 
 LONG = 90.0  # [s]
-TESTED = {'start', 'mesh_adapter', 'two_hosts', 'haptics', 'dvrk', 'fem_tissue', 'numpy'}
-ELSEWHERE = {'forces', 'grasper', 'plan'}  # contact_adapter.test and robots.test
+TESTED = {'start', 'mesh_adapter', 'two_hosts', 'haptics', 'dvrk', 'fem_tissue', 'forces', 'numpy'}
+ELSEWHERE = {'grasper', 'plan'}  # robots.test
 FEM_STEP = 0.004  # [s] of fem_tissue
 
 
@@ -175,31 +174,48 @@ class ExamplesTest(LaunchCase, NodeStarter):
                     lambda m: np.allclose(force_of(m), axes @ expected, atol=1e-3)), lambda: felt.messages[-3:])
             wait_until(lambda: not force_of(felt.last()).any(), lambda: felt.last())
 
+    def test_forces(self):
+        """The tissue pushes the probe up. The tip frame is not turned."""
+        with self.launched('examples/forces.launch'):
+            wrenches = Log('/haptic_proxy/probe/wrench', WrenchStamped)
+            simulation = subprocess.Popen([program('simulator.py')])
+            try:
+                wrench = wait_until(lambda: wrenches.last(lambda w: w.wrench.force.z > 0.3), 'a force')
+                self.assertEqual(wrench.header.frame_id, 'probe_tip')
+                self.assertLess(abs(vector(wrench.wrench.torque)).max(), 1e-9)  # The trocar bears it.
+            finally:
+                simulation.send_signal(signal.SIGINT)
+                self.assertEqual(simulation.wait(LIMIT), 0)
+
     def test_fem_tissue(self):
         """The vertex forces alone move the tissue: it yields under the probe, and comes back. What its nodes are given
-        is minus the wrench, times the duration of a step."""
+        is their sum, times the duration of a step."""
         with self.launched('examples/fem_tissue.launch'):
-            wrenches, forces, impulses, shapes = (Log(topic, kind) for topic, kind in (
-                ('/contact_adapter/tissue/probe/wrench', WrenchStamped),
-                ('/contact_adapter/tissue/probe/vertex_forces', VertexForces),
-                ('/fem_tissue/impulse', WrenchStamped), ('/organ_collision/organ_vertices', OrganVertices)))
-            rest = rospy.wait_for_message('/organ_collision/organ_mesh', OrganMesh, LIMIT)
+            forces, impulses, shapes = (Log(topic, kind) for topic, kind in (
+                ('/haptic_proxy/tissue/probe/vertex_forces', VertexForces),
+                ('/fem_tissue/impulse', WrenchStamped), ('/haptic_proxy/organ_vertices', OrganVertices)))
+            rest = rospy.wait_for_message('/haptic_proxy/organ_mesh', OrganMesh, LIMIT)
             heights = np.array(rest.vertices)[2::3]
             depth = lambda shape: (heights - np.array(shape.vertices)[2::3]).max()
             dented = lambda: [depth(shape) for shape in shapes.select(lambda shape: True)]
             wait_until(lambda: max(dented(), default=0) > 0.002 > 0.0002 > dented()[-1], 'a dent that comes back', LONG)
             self.assertLess(max(dented()), 0.013)  # The probe's surface goes down to 13 mm below the tissue at rest.
 
-            by_stamp = [{m.header.stamp: m for m in log.select(lambda m: True)} for log in (wrenches, forces, impulses)]
-            stamps, strongest = set(by_stamp[0]).intersection(*by_stamp[1:]), 0.0
+            shape_at, forces_at, impulse_at = ({stamp(m): m for m in log.select(lambda m: True)} for log, stamp in (
+                (shapes, lambda m: m.header.stamp), (forces, lambda m: m.mesh_stamp),
+                (impulses, lambda m: m.header.stamp)))
+            strongest, stamps = 0.0, set(shape_at).intersection(forces_at, impulse_at)
             self.assertGreater(len(stamps), 100)
-            for wrench, on_vertices, impulse in ([log[stamp] for log in by_stamp] for stamp in stamps):
-                force, torque = vector(wrench.wrench.force), vector(wrench.wrench.torque)
+            for stamp in stamps:
+                on_vertices, impulse = forces_at[stamp], impulse_at[stamp]
+                each = np.array([vector(force) for force in on_vertices.forces]).reshape(-1, 3)
+                places = np.array(shape_at[stamp].vertices).reshape(-1, 3)[list(on_vertices.vertices)]
+                force, torque = each.sum(axis=0), np.cross(places, each).sum(axis=0)
                 strongest = max(strongest, np.linalg.norm(force))
                 # [N s], [N m s] Bullet computes with 32-bit floats.
                 rounding = FEM_STEP * (1e-8 + 1e-5 * np.linalg.norm(force))
-                self.assertLess(abs(vector(impulse.wrench.force) + FEM_STEP * force).max(), rounding)
-                self.assertLess(abs(vector(impulse.wrench.torque) + FEM_STEP * torque).max(), rounding)
+                self.assertLess(abs(vector(impulse.wrench.force) - FEM_STEP * force).max(), rounding)
+                self.assertLess(abs(vector(impulse.wrench.torque) - FEM_STEP * torque).max(), rounding)
                 self.assertEqual((on_vertices.organ, on_vertices.tool, on_vertices.topology), ('tissue', 'probe', 0))
             self.assertGreater(strongest, 0.3)
 

@@ -8,8 +8,7 @@ import subprocess
 import sys
 import tempfile
 
-from geometry_msgs.msg import WrenchStamped
-from organ_collision.msg import Contact, ContactArray, OrganMesh, ProxyState, VertexForces
+from organ_collision.msg import ContactArray, OrganMesh, ProxyState, VertexForces
 import roslib.packages
 import rospy
 import rostest
@@ -19,7 +18,7 @@ from support.launch_case import FrameLog, LaunchCase, PACKAGE, files
 from support.node_client import LIMIT, Log, NodeClient, wait_until
 from support.processes import NodeStarter, program
 
-HANDS = {'config/demo_hands.yaml', 'examples/haptics.yaml'}  # The tools of haptic_proxy.
+HANDS = {'config/demo_hands.yaml', 'examples/haptics.yaml', 'examples/lockstep.yaml'}  # The tools of haptic_proxy.
 
 
 def shown_topics(displays):
@@ -35,24 +34,13 @@ class LaunchFilesTest(LaunchCase, NodeStarter):
     def test_every_launch_file(self):
         checks = {'organ_collision': lambda: self.check_collision_node('/organ_collision'),
                   'nodelet': lambda: self.check_collision_node('/organ_collision', '/organ_collision_manager'),
-                  'contact_adapter': self.check_contact_adapter, 'demo': self.check_demo, 'view': lambda: None,
+                  'demo': self.check_demo, 'view': lambda: None,
                   'haptic_proxy': lambda: self.check_hands('/haptic_proxy', rospy.get_param('/haptic_proxy/tools')),
                   'organ_mesh_adapter': lambda: self.check_mesh_adapter(rospy.get_param('/organ_mesh_adapter/organs'))}
         self.assertEqual({'launch/%s.launch' % name for name in checks}, files('launch', '.launch'))
         for name, check in checks.items():
             with self.launched('launch/%s.launch' % name):
                 check()
-
-    def check_contact_adapter(self):
-        """A contact of 1 mm depth gives 0.3 N, with the default stiffness."""
-        contacts = rospy.Publisher('/organ_collision/contacts', ContactArray, queue_size=10)
-        wrenches = Log('/contact_adapter/sheet/probe/wrench', WrenchStamped)
-        message = ContactArray(organ='sheet', tool='probe', contacts=[Contact(depth=0.001, link=-1)])
-        message.header.frame_id, message.contacts[0].normal.z = 'world', -1.0
-        # The topic of the wrench appears only after the first contacts.
-        force = wait_until(lambda: contacts.publish(message) or wrenches.last(), 'a wrench').wrench.force
-        self.assert_near((force.x, force.y, force.z), (0.0, 0.0, 0.3), 1e-9, 'force')
-        contacts.unregister()
 
     def check_hands(self, name, tools):
         """haptic_proxy knows the tools, and they have no organ."""

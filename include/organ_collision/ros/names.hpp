@@ -48,6 +48,7 @@ inline constexpr char kTfPrefix[] = "tf_prefix";
 inline constexpr char kMargin[] = "margin";
 inline constexpr char kMaxNear[] = "max_near";
 inline constexpr char kFreedom[] = "freedom";
+inline constexpr char kLockstep[] = "lockstep";
 ///@}
 
 }  // namespace organ_collision::names

@@ -137,6 +137,7 @@ ToolParameters parse_tool(const ParameterGroup& tool) {
   }
   parse_clearance(tool, parsed);
   parsed.freedom = parse_freedom(tool, parsed);
+  parsed.lockstep = tool.flag(names::kLockstep, parsed.lockstep);
   return parsed;
 }
 
@@ -185,7 +186,10 @@ const std::vector<HelpEntry>& tool_keys() {
       {names::kMaxNear, "every tool; 0",
        "answers list at most so many faces that are within the margin and not touched"},
       {names::kFreedom, "every tool; trocar with a shaft that is no ball, else free",
-       "how tissue can move the tool in haptic_proxy: trocar (about its trocar) or free"}};
+       "how tissue can move the tool in haptic_proxy: trocar (about its trocar) or free"},
+      {names::kLockstep, "every tool; false",
+       "true: haptic_proxy answers each new shape of an organ once, with the tool's pose at the "
+       "stamp of the shape, and not each pose. For tools that a simulator moves"}};
   return keys;
 }
 

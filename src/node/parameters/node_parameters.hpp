@@ -26,6 +26,7 @@ struct ToolParameters {
   double margin = 0.0;  ///< [m] steps measure the clearance up to this distance; 0: they do not
   int max_near = 0;     ///< steps list at most this many near faces
   ProxyFreedom freedom = ProxyFreedom::kFree;  ///< freedom of a haptic proxy; steps do not use it
+  bool lockstep = false;  ///< a haptic proxy answers each shape of an organ; steps do not use it
   Eigen::Vector3d trocar_offset = Eigen::Vector3d::Zero();  ///< [m] the trocar, in trocar_frame
   Eigen::Vector3d tip_offset = Eigen::Vector3d::Zero();     ///< [m] the tip, in tip_frame
 
