@@ -36,7 +36,7 @@ ProgramHelp haptic_proxy_help() {
       "node (~), whose default name is /" +
           std::string(names::kHapticProxy) +
           ". It is also a nodelet, organ_collision/HapticProxyNodelet. " + kPairNamesHelp,
-      "places all proxies anew, from outside");
+      "places all proxies anew");
   help.published = {
       {ros::names::append(tool, names::kProxy), message_type<geometry_msgs::PoseStamped>(),
        "where the proxy is: the tip of a shaft, with the z axis from trocar to tip, or the first "

@@ -198,8 +198,13 @@ ProxyScene HapticProxyNode::scene_at(Time now) {
     const OrganShape& latest = organ.latest();
     return {interpolates ? shapes_.shape(organ, now) : latest.mesh, latest.stamp};
   };
-  return proxy_scene(inbox_.organs, inbox_.transforms, frame_.name(), age_limits(),
-                     ros::Time::now(), shape_of);
+  ProxyScene scene = proxy_scene(inbox_.organs, inbox_.transforms, frame_.name(), age_limits(),
+                                 ros::Time::now(), shape_of);
+  for (std::size_t i = 0; i < scene.organs.size(); ++i) {
+    const auto kept = core_.parameters().keep.find(scene.sources[i]->name());
+    if (kept != core_.parameters().keep.end()) scene.organs[i].keep = kept->second;
+  }
+  return scene;
 }
 
 /// The organs at the stamp of a shape, without interpolation. Their frames may have any age,
@@ -503,6 +508,16 @@ void HapticProxyNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& stat
     if (!why_not) continue;
     status.mergeSummary(DiagnosticStatus::WARN,
                         "tool '" + core_.tools()[tool].parameters.name + "': " + why_not->what());
+  }
+  for (const auto& [name, side] : core_.parameters().keep) {
+    const auto organ = inbox_.organs.organs().find(name);
+    if (side != Side::kInside || organ == inbox_.organs.organs().end()) continue;
+    const SurfaceTopology* const topology = organ->second.latest().topology();
+    if (!topology || topology->is_closed()) continue;
+    status.mergeSummary(DiagnosticStatus::WARN,
+                        "organ '" + name +
+                            "' is not closed, so it has no inside to keep: each tool keeps the "
+                            "side on which it starts");
   }
   show_failures("unanswered", counters_.failed, status);
   show_failures("clipped", counters_.clipped, status);

@@ -33,8 +33,9 @@ struct HapticProxyParameters : OrganNodeParameters {
   double max_force_rate = 0.0, max_torque_rate = 0.0;  ///< [N/s], [N m/s]; 0: see wrench_limits()
   double clearance = ProxySettings().clearance;        ///< [m]
   double jump = ProxySettings().jump;                  ///< [m]
-  double puncture_force = 0.0;  ///< [N] at this force, a needle pierces; 0: never
-  double friction = 0.0;        ///< [N] along a needle that has pierced tissue
+  double puncture_force = 0.0;       ///< [N] at this force, a needle pierces; 0: never
+  double friction = 0.0;             ///< [N] along a needle that has pierced tissue
+  std::map<std::string, Side> keep;  ///< ProxyOrgan::keep by organ; of all others: kOutside
   double pose_timeout_sec = 0.02;
   double frame_timeout_sec = 0.5;  ///< since an organ's frame came, unless static; 0: any
   bool organ_interpolation = true;
@@ -52,6 +53,22 @@ inline WrenchLimits wrench_limits(const HapticProxyParameters& parameters) {
   return {parameters.max_force, parameters.max_torque,
           rate(parameters.max_force_rate, parameters.max_force, defaults.max_force),
           rate(parameters.max_torque_rate, parameters.max_torque, defaults.max_torque)};
+}
+
+/// Reads the list `keep`.
+inline void parse_keep(const ParameterGroup& all, HapticProxyParameters& p) {
+  if (!all.has("keep")) return;
+  const XmlRpc::XmlRpcValue& list = all.list("keep", "groups of organ and side");
+  for (int i = 0; i < list.size(); ++i) {
+    const ParameterGroup entry("~keep[" + std::to_string(i) + "]", list[i], {"organ", "side"});
+    const std::string side = entry.text("side");
+    entry.choice("side", side, {"outside", "inside", "either"});
+    const Side kept = side == "inside" ? Side::kInside : Side::kUnknown;
+    if (!p.keep.insert({entry.text("organ"), side == "outside" ? Side::kOutside : kept}).second) {
+      entry.refuse("organ", "must be unique among the organs of ~keep");
+    }
+    for (const std::string& sentence : entry.misspelt()) p.misspelt.push_back(sentence);
+  }
 }
 
 inline ParameterTable table_of(HapticProxyParameters& p) {
@@ -115,6 +132,12 @@ inline ParameterTable table_of(HapticProxyParameters& p) {
   t.number("friction", p.friction, {0.0, 1000.0},
            "[N] along the axis of a shaft that has pierced tissue")
       .live();
+  t.other(
+      "keep", "outside of all organs", [&p](const ParameterGroup& all) { parse_keep(all, p); },
+      "list of the organs on whose other side tools work: each has organ, its name, and side. "
+      "inside: of a hollow organ with a closed surface, whose wall holds the tool. either: the "
+      "side on which the tool starts. A surface that is not closed has no sides: there, each tool "
+      "keeps the side on which it starts");
   t.number("pose_timeout_sec", p.pose_timeout_sec, kTimerPeriod,
            "[s] of wall time after the last pose of the hand, the force fades. Raise it for poses "
            "slower than 100 Hz. A tool with `lockstep` waits so long for its pose at the stamp of "

@@ -227,6 +227,11 @@ void check_organs(const std::vector<ProxyOrgan>& organs) {
       refuse("the frame of organ '", organ.name,
              "' has a pose that is not finite, or whose linear part is not a rotation");
     }
+    if (organ.keep == Side::kOnSurface) {
+      refuse("organ '", organ.name,
+             "' is to keep a proxy on its surface; legal are the outside, "
+             "the inside and unknown");
+    }
     const auto same_name =
         std::count_if(organs.begin(), organs.end(),
                       [&](const ProxyOrgan& other) { return other.name == organ.name; });

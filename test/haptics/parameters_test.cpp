@@ -36,6 +36,13 @@ XmlRpcValue organ(const std::string& name) {
   return organ;
 }
 
+XmlRpcValue kept(const XmlRpcValue& organ, const XmlRpcValue& side) {
+  XmlRpcValue entry;
+  entry["organ"] = organ;
+  entry["side"] = side;
+  return entry;
+}
+
 TEST(HapticParameters, AreTaken) {
   XmlRpcValue all = legal_parameters<HapticProxyParameters>();
   EXPECT_EQ(parse_parameters<HapticProxyParameters>(all).frame, "");
@@ -44,6 +51,17 @@ TEST(HapticParameters, AreTaken) {
   const auto proxy = parse_parameters<HapticProxyParameters>(all);
   EXPECT_EQ(proxy.frame, "world");
   EXPECT_EQ(proxy.picker.kind, PickerKind::kCpu);
+  EXPECT_TRUE(proxy.keep.empty());
+  all["keep"][0] = kept("left bladder", "inside");
+  all["keep"][1] = kept("colon", "either");
+  all["keep"][2] = kept("liver", "outside");
+  all["keep"][2]["sides"] = "inside";
+  const auto with = parse_parameters<HapticProxyParameters>(all);
+  EXPECT_EQ(with.keep, (std::map<std::string, Side>{{"left bladder", Side::kInside},
+                                                    {"colon", Side::kUnknown},
+                                                    {"liver", Side::kOutside}}));
+  ASSERT_EQ(with.misspelt.size(), 1U);
+  expect_words(with.misspelt[0], {"~keep[2]/sides ", "'side'"});
 
   XmlRpcValue adapter;
   adapter["collision_node"] = "/theatre/collisions";
@@ -75,6 +93,15 @@ TEST(HapticParameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
             "~clearance is '-1.5'; must be a number, more than 0, at most 0.1");
   EXPECT_EQ(refusal_of<HapticProxyParameters>("max_force", 0),
             "~max_force is '0'; must be a number, more than 0, at most 10000, or .inf");
+  XmlRpcValue keep;
+  EXPECT_EQ(refusal_of<HapticProxyParameters>("keep", "inside"),
+            "~keep is 'inside'; must be a list of groups of organ and side");
+  keep[0] = kept("colon", "left");
+  expect_words(refusal_of<HapticProxyParameters>("keep", keep), {"~keep[0]/side is 'left'"});
+  keep[0] = kept("", "inside");
+  expect_words(refusal_of<HapticProxyParameters>("keep", keep), {"~keep[0]/organ is ''"});
+  keep[0] = keep[1] = kept("colon", "inside");
+  expect_words(refusal_of<HapticProxyParameters>("keep", keep), {"~keep[1]/organ", "unique"});
   XmlRpcValue tools;
   tools[0] = tools[1] = legal_parameters<HapticProxyParameters>()["tools"][0];
   tools[1]["name"] = "left_hook";  // Its topics would have the same names.

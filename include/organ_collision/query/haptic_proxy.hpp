@@ -14,6 +14,7 @@
 #include "organ_collision/geometry/tool/tool_path.hpp"
 #include "organ_collision/picking/picker_settings.hpp"
 #include "organ_collision/query/contact.hpp"
+#include "organ_collision/query/placement.hpp"
 
 namespace organ_collision {
 
@@ -53,7 +54,7 @@ struct ProxySettings {
   double clearance = 1e-4;
   /// [m] If the tip, the centre or the trocar of the hand moves farther than this between two
   /// ticks, or a free tool turns by more than this divided by ProxyAnswer::size, the proxy is
-  /// placed anew: it is forgotten and comes to the hand from outside.
+  /// placed anew: it is forgotten and comes to the hand on the side that ProxyOrgan::keep names.
   double jump = 0.05;
   /// [m] The needle pierces the tissue if the tip of the hand is this far beyond the tip of the
   /// proxy, along the axis. It is the threshold of the force divided by the stiffness. Not set: the
@@ -71,11 +72,16 @@ struct ProxyOrgan {
   std::string name;
   /// The organ's shape, in the organ's frame. Required. The proxy keeps it until the next tick.
   std::shared_ptr<const TriangleMesh> shape;
-  /// How the faces of the shape join. Used only when a free tool is placed anew, to tell whether it
-  /// is inside. Null: a free tool that touches nothing is taken to be outside.
+  /// How the faces of the shape join. Used to tell on which side the proxy is, when it is placed
+  /// anew, and once when the organ, its triangles or this member are new. Null: not known yet.
   const SurfaceTopology* topology = nullptr;
   /// The transform from the proxy's frame to the organ's frame.
   Eigen::Isometry3d T_organ_proxy = Eigen::Isometry3d::Identity();
+  /// The side of the surface on which the whole proxy stays: kOutside, or kInside for a hollow
+  /// organ, whose wall then holds the tool. kUnknown: the side on which the tool starts, that is
+  /// the side of its centre, or of its trocar, at the first tick and after a reset or a jump of the
+  /// hand. A surface that is not closed has no sides: the proxy keeps the side on which it starts.
+  Side keep = Side::kOutside;
 };
 
 /// A face near a proxy, and the load that it bears.

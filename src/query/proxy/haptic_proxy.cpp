@@ -51,8 +51,8 @@ struct HapticProxy::State {
   struct Tick {
     const ToolPose& hand;
     const std::vector<ProxyOrgan>& organs;
-    std::vector<OrganTick> motions;
     HandWay hand_way;  ///< since the last tick
+    std::vector<OrganTick> motions = {};
     ProxyAnswer answer = {};
     std::optional<ProxyPlace> place = {};
     std::optional<Needle> needle = {};
@@ -62,7 +62,8 @@ struct HapticProxy::State {
   void hold(Tick& tick, Needle&& held) const;
   void pierce(Tick& tick);
   void move_proxy(Tick& tick);
-  std::vector<OrganTick> match(const std::vector<ProxyOrgan>& organs) const;
+  std::vector<OrganTick> match(const std::vector<ProxyOrgan>& organs, bool goes_on) const;
+  void choose_sides(Tick& tick);
   bool is_in_new_tissue(Tick& tick);
   HandWay way_of(const ToolPose& hand) const;
   void describe(Tick& tick);
@@ -116,7 +117,15 @@ void HapticProxy::State::set_settings(const ProxySettings& its_settings) {
 /// One tick. A needle in tissue moves with the tissue. Any other proxy gives way to the tissue that
 /// moved, and then follows the hand.
 void HapticProxy::State::follow(const ToolPose& hand, const std::vector<ProxyOrgan>& organs) {
-  Tick tick{hand, organs, match(organs), place ? way_of(hand) : HandWay{}};
+  Tick tick{hand, organs, place ? way_of(hand) : HandWay{}};
+  if (!place) {
+    tick.answer.message = "this is the first tick, or the first after a reset";
+  } else if (tick.hand_way.jump > settings.jump) {
+    tick.answer.message = "the hand jumped " + std::to_string(tick.hand_way.jump) + " m";
+  } else {
+    tick.place = place;
+  }
+  tick.motions = match(organs, tick.place.has_value());
   tissue.set_organs(tick.motions);
   mobility->measure(hand);
   tick.answer.proxy = hand;
@@ -133,12 +142,12 @@ void HapticProxy::State::follow(const ToolPose& hand, const std::vector<ProxyOrg
   last_way = tick.way;
   last_hand = hand;
   last_organs = organs;
+  for (std::size_t i = 0; i < organs.size(); ++i) last_organs[i].keep = tick.motions[i].keep;
 }
 
 /// Moves a needle that is in tissue. Returns whether it is still in tissue.
 bool HapticProxy::State::move_needle(Tick& tick) {
-  tick.place = place;
-  if (!needle || tick.hand_way.jump > settings.jump) return false;
+  if (!needle || !tick.place) return false;
   Needle moved = *needle;
   const Needle::Fate fate = moved.follow(tick.hand.axis, tick.organs, settings, tissue);
   if (fate == Needle::Fate::kHeld) {
@@ -178,12 +187,8 @@ void HapticProxy::State::pierce(Tick& tick) {
 
 void HapticProxy::State::move_proxy(Tick& tick) {
   const ToolPose& hand = tick.hand;
-  if (!place) {
-    tick.answer.message = "this is the first tick, or the first after a reset";
-  } else if (tick.hand_way.jump > settings.jump) {
-    tick.answer.message = "the hand jumped " + std::to_string(tick.hand_way.jump) + " m";
-    tick.place.reset();
-  } else if (tick.place && is_in_new_tissue(tick)) {
+  choose_sides(tick);
+  if (tick.place && is_in_new_tissue(tick)) {
     tick.answer.message = "new tissue is where the proxy was";
     tick.place.reset();
   } else if (tick.place) {
@@ -210,43 +215,60 @@ void HapticProxy::State::move_proxy(Tick& tick) {
   }
 }
 
-/// How each organ moved since the last tick.
-std::vector<OrganTick> HapticProxy::State::match(const std::vector<ProxyOrgan>& organs) const {
+/// How each organ moved since the last tick. `goes_on`: the tool keeps the sides that it has.
+std::vector<OrganTick> HapticProxy::State::match(const std::vector<ProxyOrgan>& organs,
+                                                 bool goes_on) const {
   std::vector<OrganTick> ticks;
   for (const ProxyOrgan& organ : organs) {
     OrganTick tick;
     tick.now = organ.shape.get();
     tick.topology = organ.topology;
     tick.T_now = tick.T_before = organ.T_organ_proxy;
+    tick.keep = organ.keep;
     for (const ProxyOrgan& last : last_organs) {
+      if (last.name != organ.name) continue;
+      if (organ.keep == Side::kUnknown && goes_on) tick.keep = last.keep;
       const bool has_same_triangles =
           last.shape->topology() == organ.shape->topology() && last.shape->same_faces(*organ.shape);
-      if (last.name != organ.name || !has_same_triangles) continue;
+      if (!has_same_triangles) continue;
       tick.before = last.shape.get();
       tick.T_before = last.T_organ_proxy;
+      tick.is_new = organ.topology && !last.topology;
     }
     ticks.push_back(tick);
   }
   return ticks;
 }
 
-/// Whether the proxy is inside an organ that is new or has new faces, or crosses its surface. If
-/// such an organ is nearer than the proxy's clearance, its distance becomes the clearance.
+/// Chooses the side of each closed organ of which the tool keeps the side where it starts.
+void HapticProxy::State::choose_sides(Tick& tick) {
+  const ToolPose& pose = tick.place ? tick.place->pose : tick.hand;
+  const Eigen::Vector3d point =
+      tool.freedom == ProxyFreedom::kTrocar ? pose.axis.trocar : mobility->center(pose);
+  for (OrganTick& organ : tick.motions) {
+    if (organ.keep != Side::kUnknown || !organ.topology || !organ.topology->is_closed()) continue;
+    const Side side = tissue.side(organ, point);
+    if (side != Side::kOnSurface) organ.keep = side;
+  }
+}
+
+/// Whether the proxy is on the wrong side of an organ that is new, or crosses its surface. If such
+/// an organ is nearer than the proxy's clearance, its distance becomes the clearance.
 bool HapticProxy::State::is_in_new_tissue(Tick& tick) {
   std::vector<OrganTick> new_organs;
   std::copy_if(tick.motions.begin(), tick.motions.end(), std::back_inserter(new_organs),
-               [](const OrganTick& organ) { return !organ.before; });
+               [](const OrganTick& organ) { return organ.is_new; });
   if (new_organs.empty()) return false;
   ProxyPlace& start = *tick.place;
   tissue.set_organs(new_organs);
-  const bool is_inside = tissue.is_inside(start.pose, mobility->center(start.pose));
+  const bool is_wrong = tissue.is_on_wrong_side(start.pose, mobility->center(start.pose));
   std::vector<TissueContact> contacts;
   tissue.touch({start.pose}, settings.clearance, contacts);
   for (const TissueContact& contact : contacts) {
     start.clearance = std::min(start.clearance, contact.distance);
   }
   tissue.set_organs(tick.motions);
-  return is_inside;
+  return is_wrong;
 }
 
 /// How far the hand moved since the last tick.

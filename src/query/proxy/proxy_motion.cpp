@@ -18,6 +18,8 @@ constexpr int kPieces = 4;
 constexpr int kMostAttempts = 5;
 /// [1] A proxy gives way by at most this many times the depth of tissue in its clearance.
 constexpr double kLongestGiveWay = 10.0;
+/// In a hollow organ, a place to start is sought along this many straight lines, at most.
+constexpr std::size_t kLines = 12;
 /// How often a proxy that slides along curved tissue looks for walls, at most.
 constexpr int kMostLooks = 8;
 
@@ -87,6 +89,23 @@ ToolPose beyond(const std::vector<OrganTick>& organs, const Mobility& mobility,
   Displacement displacement = Displacement::Zero();
   displacement.head<3>() = box.center() + distance * away - mobility.center(hand);
   return mobility.moved(hand, displacement, hand);
+}
+
+/// The directions from a point to the nearest face of an organ, and to a few faces all over it.
+std::vector<Vector3d> lines_to(const OrganTick& organ, const Vector3d& from) {
+  const auto to = [&, T_proxy_organ = organ.T_now.inverse()](std::size_t face) -> Vector3d {
+    const Vector3d middle = point_at(organ.now->triangle(face), Vector3d::Constant(1.0 / 3.0));
+    return T_proxy_organ * middle - from;
+  };
+  const std::size_t count = organ.now->face_count(), step = (count - 1) / kLines + 1;
+  std::vector<Vector3d> lines{to(0)};
+  for (std::size_t face = 1; face < count; ++face) {
+    const Vector3d line = to(face);
+    if (line.squaredNorm() < lines[0].squaredNorm()) lines[0] = line;
+  }
+  for (std::size_t face = 0; face < count; face += step) lines.push_back(to(face));
+  for (Vector3d& line : lines) line.normalize();
+  return lines;
 }
 
 }  // namespace
@@ -279,23 +298,54 @@ std::optional<double> ProxyMotion::first_touch(double growth) const {
 std::optional<ProxyPlace> ProxyMotion::enter(ProxyFreedom freedom, const ToolPose& hand,
                                              const std::vector<OrganTick>& organs,
                                              std::string& why_not) {
-  const auto is_clear = [this](const ToolPose& pose) {
-    tissue_.touch({pose}, clearance_.rest, met_);
-    return met_.empty();
-  };
-  ToolPose pose = hand;
   if (freedom == ProxyFreedom::kTrocar) {
+    ToolPose pose = hand;
     pose.axis.tip = hand.axis.trocar;
-    pose = mobility_.combine(pose, hand);
-    why_not = "the trocar is in tissue: the proxy cannot be placed from outside";
-  } else if (!is_clear(pose) || tissue_.is_inside(pose, mobility_.center(pose))) {
-    pose = beyond(organs, mobility_, hand);
-    why_not = "there is no room beyond the organs: the proxy cannot be placed from outside";
-  } else {
+    why_not = "the trocar is in tissue, or on the wrong side of an organ (keep)";
+    return first_free({mobility_.combine(pose, hand)});
+  }
+  if (auto place = first_free({hand})) return place;
+  why_not = "there is no room on the right side of all organs (keep)";
+  return first_free(starts(hand, organs));
+}
+
+/// The first of some poses in which the tool touches nothing and is on the right side.
+std::optional<ProxyPlace> ProxyMotion::first_free(const std::vector<ToolPose>& poses) {
+  for (const ToolPose& pose : poses) {
+    tissue_.touch({pose}, clearance_.rest, met_);
+    if (!met_.empty() || tissue_.is_on_wrong_side(pose, mobility_.center(pose))) continue;
     return ProxyPlace{pose, clearance_.rest};
   }
-  if (!is_clear(pose)) return std::nullopt;
-  return ProxyPlace{pose, clearance_.rest};
+  return std::nullopt;
+}
+
+/// The places where a free tool may start if it cannot start at the hand, in the order of
+/// preference: beyond all organs, and midway between the walls of organs that the tool must not
+/// leave, on straight lines from the hand through their faces.
+std::vector<ToolPose> ProxyMotion::starts(const ToolPose& hand,
+                                          const std::vector<OrganTick>& organs) const {
+  const Vector3d from = mobility_.center(hand);
+  const double length = box_around(organs).extend(from).diagonal().norm();
+  std::vector<Vector3d> ways;  // from the hand
+  for (const OrganTick& organ : organs) {
+    if (organ.keep != Side::kInside) continue;
+    for (const Vector3d& line : lines_to(organ, from)) {
+      const std::vector<ProxyCrossing> walls =
+          tissue_.cross({from - length * line, from + length * line});
+      for (std::size_t i = 1; i < walls.size(); ++i) {
+        ways.push_back(0.5 * (walls[i - 1].point + walls[i].point) - from);
+      }
+    }
+  }
+  std::stable_sort(ways.begin(), ways.end(),
+                   [](const auto& a, const auto& b) { return a.norm() < b.norm(); });
+  std::vector<ToolPose> places = {beyond(organs, mobility_, hand)};
+  for (const Vector3d& way : ways) {
+    Displacement displacement = Displacement::Zero();
+    displacement.head<3>() = way;
+    places.push_back(mobility_.moved(hand, displacement, hand));
+  }
+  return places;
 }
 
 }  // namespace organ_collision

@@ -38,8 +38,9 @@ class ProxyMotion {
 
   /// The place where a proxy starts when it is placed anew. From there it moves to the hand like
   /// any proxy. A tool through a trocar starts with its tip at the trocar. A free tool starts where
-  /// the hand is. If it touches tissue there or is inside an organ, it starts beyond all organs, on
-  /// the hand's side. If there is tissue, too, the result is empty, and `why_not` says why.
+  /// the hand is. If it touches tissue there or is on the wrong side of an organ, it starts beyond
+  /// all organs, on the hand's side, or inside the organ that it must not leave. If there is no
+  /// place on the right side of all organs, the result is empty, and `why_not` says why.
   std::optional<ProxyPlace> enter(ProxyFreedom freedom, const ToolPose& hand,
                                   const std::vector<OrganTick>& organs, std::string& why_not);
 
@@ -68,6 +69,8 @@ class ProxyMotion {
   std::optional<ProxyPlace> give_way(const ProxyPlace& start, const ToolPose& hand,
                                      const std::vector<OrganTick>& organs, Level level, int pieces);
   std::optional<ProxyPlace> give_way(const ProxyPlace& start, const ToolPose& hand, Level level);
+  std::optional<ProxyPlace> first_free(const std::vector<ToolPose>& poses);
+  std::vector<ToolPose> starts(const ToolPose& hand, const std::vector<OrganTick>& organs) const;
   bool fly(ProxyPlace& place, const ToolPose& hand, double growth);
   double share_of_give_way(const ToolPose& given) const;
   void look_around(ProxyPlace& place, double reach);

@@ -44,10 +44,14 @@ void Tissue::touch(const std::vector<ToolPose>& way, double growth,
                    std::vector<TissueContact>& contacts, Organs organs) {
   contacts.clear();
   grow(growth);
-  const bool is_static = way.size() == 1;
+  const std::vector<Link>& links = growth < 0.0 ? middle_lines_ : grown_links_;
   for (std::size_t organ = 0; organ < organs_->size(); ++organ) {
     const OrganTick& tick = (*organs_)[organ];
-    CollisionRequest question = request(tick, is_static ? QueryMode::kStatic : QueryMode::kSwept);
+    CollisionRequest question;
+    question.organ = tick.now;
+    question.radius = radius_;
+    if (!links.empty()) question.links = &links;
+    question.mode = way.size() == 1 ? QueryMode::kStatic : QueryMode::kSwept;
     question.path = {waypoint(0.0, organs == Organs::kMove ? tick.T_before : tick.T_now, way[0])};
     for (std::size_t i = 1; i < way.size(); ++i) {
       const double fraction = static_cast<double>(i) / static_cast<double>(way.size() - 1);
@@ -66,39 +70,47 @@ void Tissue::touch(const std::vector<ToolPose>& way, double growth,
   }
 }
 
-bool Tissue::is_inside(const ToolPose& pose, const Eigen::Vector3d& point) {
-  grow(0.0);
+bool Tissue::is_on_wrong_side(const ToolPose& pose, const Eigen::Vector3d& point) {
+  const ShaftAxis axis = tool_.radius > 0.0 ? pose.axis : ShaftAxis{point, point};
   return std::any_of(organs_->begin(), organs_->end(), [&](const OrganTick& organ) {
-    CollisionRequest question = request(organ, QueryMode::kStatic);
-    question.path = {waypoint(0.0, organ.T_now, pose)};
-    question.placement = true;
-    question.surface_topology = organ.topology;
-    question.tip = organ.T_now * point;
-    query_.evaluate(question, result_);
-    const AxisPlacement& placement = result_.placement;
-    return placement.tip == Side::kInside || placement.trocar == Side::kInside ||
-           !placement.crossings.empty();
+    const AxisPlacement& found = placement(organ, axis, organ.topology);
+    const auto is_wrong = [&organ](Side side) {
+      return (organ.keep == Side::kOutside && side == Side::kInside) ||
+             (organ.keep == Side::kInside && side == Side::kOutside);
+    };
+    return is_wrong(found.tip) || is_wrong(found.trocar) || !found.crossings.empty();
   });
+}
+
+Side Tissue::side(const OrganTick& organ, const Eigen::Vector3d& point) {
+  return placement(organ, {point, point}, organ.topology).tip;
 }
 
 std::vector<ProxyCrossing> Tissue::cross(const ShaftAxis& axis) {
   std::vector<ProxyCrossing> crossings;
-  grow(least_growth());
   for (std::size_t organ = 0; organ < organs_->size(); ++organ) {
-    const Eigen::Isometry3d& T_organ_proxy = (*organs_)[organ].T_now;
-    CollisionRequest question = request((*organs_)[organ], QueryMode::kStatic);
-    question.links = nullptr;
-    question.path = {waypoint(0.0, T_organ_proxy, {axis, {}, {}})};
-    question.placement = true;
-    query_.evaluate(question, result_);
-    for (const AxisCrossing& found : result_.placement.crossings) {
+    const Eigen::Isometry3d T_proxy_organ = (*organs_)[organ].T_now.inverse();
+    for (const AxisCrossing& found : placement((*organs_)[organ], axis, nullptr).crossings) {
       crossings.push_back({organ, found.face, found.barycentric, found.shaft,
-                           T_organ_proxy.inverse() * found.point, Eigen::Vector3d::Zero()});
+                           T_proxy_organ * found.point, Eigen::Vector3d::Zero()});
     }
   }
   std::stable_sort(crossings.begin(), crossings.end(),
                    [](const auto& a, const auto& b) { return a.shaft < b.shaft; });
   return crossings;
+}
+
+/// Where an axis is. Without a topology, the sides of its ends are not looked for.
+const AxisPlacement& Tissue::placement(const OrganTick& organ, const ShaftAxis& axis,
+                                       const SurfaceTopology* topology) {
+  CollisionRequest question;
+  question.organ = organ.now;
+  question.radius = kAxisRadius;
+  question.path = {waypoint(0.0, organ.T_now, {axis, {}, {}})};
+  question.placement = true;
+  question.surface_topology = topology;
+  query_.evaluate(question, result_);
+  return result_.placement;
 }
 
 void Tissue::grow(double growth) {
@@ -116,17 +128,6 @@ void Tissue::grow(double growth) {
 double Tissue::growth_of(std::int32_t link) const {
   if (link == kShaft) return radius_ - tool_.radius;
   return growth_ < 0.0 ? kAxisRadius : growth_;
-}
-
-/// A request about an organ that rests in its present shape. The caller adds the tool's path.
-CollisionRequest Tissue::request(const OrganTick& organ, QueryMode mode) const {
-  CollisionRequest request;
-  request.organ = organ.now;
-  request.radius = radius_;
-  const std::vector<Link>& links = growth_ < 0.0 ? middle_lines_ : grown_links_;
-  request.links = links.empty() ? nullptr : &links;
-  request.mode = mode;
-  return request;
 }
 
 }  // namespace organ_collision

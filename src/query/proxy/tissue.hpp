@@ -15,6 +15,8 @@ struct OrganTick {
   const SurfaceTopology* topology = nullptr;  ///< of `now`; null: inside and outside are unknown
   Eigen::Isometry3d T_before = Eigen::Isometry3d::Identity();  ///< T_organ_proxy at the start
   Eigen::Isometry3d T_now = Eigen::Isometry3d::Identity();     ///< T_organ_proxy at the end
+  Side keep = Side::kOutside;                                  ///< as ProxyOrgan::keep
+  bool is_new = true;  ///< it has not been checked yet whether the proxy is on the side to keep
 
   bool is_moving() const {
     return (before && before != now) || T_before.matrix() != T_now.matrix();
@@ -49,9 +51,11 @@ class Tissue {
   void touch(const std::vector<ToolPose>& way, double growth, std::vector<TissueContact>& contacts,
              Organs organs = Organs::kRest);
 
-  /// Whether `point` or the shaft's trocar is known to be inside an organ, or the shaft's axis
-  /// crosses the surface of an organ.
-  bool is_inside(const ToolPose& pose, const Eigen::Vector3d& point);
+  /// Whether the axis of the shaft, or else `point`, is known to be on the side of an organ that
+  /// the proxy must not be on, or crosses the surface of an organ.
+  bool is_on_wrong_side(const ToolPose& pose, const Eigen::Vector3d& point);
+  /// The side of an organ on which a point is.
+  Side side(const OrganTick& organ, const Eigen::Vector3d& point);
 
   /// Where an axis crosses the organs' surfaces, sorted from its trocar to its tip. The crossings
   /// have no loads.
@@ -63,7 +67,8 @@ class Tissue {
  private:
   void grow(double growth);
   double growth_of(std::int32_t link) const;
-  CollisionRequest request(const OrganTick& organ, QueryMode mode) const;
+  const AxisPlacement& placement(const OrganTick& organ, const ShaftAxis& axis,
+                                 const SurfaceTopology* topology);
 
   const ProxyTool& tool_;
   double growth_ = 0.0;  ///< [m]

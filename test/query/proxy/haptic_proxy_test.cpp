@@ -86,6 +86,7 @@ TEST(ProxyRefusal, OfAHandOrAnOrganChangesNothing) {
       {"links", [](Hand& hand, Organs&) { hand.links.push_back(Isometry3d::Identity()); }},
       {"'organ'", [](Hand&, Organs& organs) { organs.push_back(organs[0]); }},
       {"'organ'", [](Hand&, Organs& organs) { organs[0].shape = nullptr; }},
+      {"surface", [](Hand&, Organs& organs) { organs[0].keep = Side::kOnSurface; }},
       {"'organ'", [](Hand&, Organs& organs) { organs[0].T_organ_proxy.translation().x() = kNan; }},
       {"rotation", [](Hand&, Organs& organs) { organs[0].T_organ_proxy.linear() *= 2.0; }}};
   const ProxyTool tool = shaft_tool();
