@@ -23,8 +23,7 @@ PLAIN_ENVIRONMENT = {'PATH': '/usr/bin:/bin', 'HOME': os.environ.get('HOME', '/'
 SCRIPTS = {name for name in os.listdir(os.path.join(SOURCE, 'examples'))
            if name.endswith('.py') and os.access(os.path.join(SOURCE, 'examples', name), os.X_OK)} | {'view.py'}
 PROGRAMS = {'organ_collision_node', 'robot_reader', 'contact_adapter', 'organ_mesh_adapter', 'haptic_proxy',
-            'query_offline',
-            'replay', 'snapshot', 'liver_simulator', 'demo_report', 'stylus_driver', 'plan_grasper'}
+            'query_offline', 'replay', 'snapshot', 'liver_simulator', 'demo_report', 'stylus_driver'}
 SHIPPED = [folder + '/' + name for folder in ('launch', 'config', 'urdf', 'msg', 'srv')
            for name in os.listdir(os.path.join(SOURCE, folder)) if os.path.isfile(os.path.join(SOURCE, folder, name))]
 
