@@ -2,7 +2,7 @@
 """What each layer (geometry <- picking <- query <- ros) and each program includes and links.
 
 Usage: layers_test.py SOURCE_FOLDER GEOMETRY_LIBRARY PICKING_LIBRARY QUERY_LIBRARY ROS_LIBRARY
-                      CONTACT_ADAPTER MESH_ADAPTER LIVER_SIMULATOR ROBOT_READER SNAPSHOT
+                      CONTACT_ADAPTER MESH_ADAPTER LIVER_SIMULATOR ROBOT_READER
 """
 
 import glob
@@ -76,19 +76,16 @@ class LayersTest(unittest.TestCase):
         message = re.compile(r'organ_collision/\w+\.h$')
         adapters = ('ros/messages', 'forces', 'contact_adapter', 'mesh_adapter')
         for pattern, rooms in ((ROS, LAYERS[:-1]), (message, LAYERS[:-1]),
-                               (GL, ['geometry', 'query', 'ros', 'snapshot']),
+                               (GL, ['geometry', 'query', 'ros']),
                                (NODE, adapters)):
             for room in rooms:
                 self.assertEqual(matching(room, pattern), [])
         # robot_reader shares this with the node.
         self.assertEqual(matching('ros/messages', ROS, 'text'), [])
-        # snapshot takes GL from picking, and nothing from query and the node.
-        self.assertEqual([include for include in matching('snapshot', NODE)
-                          if not re.search(r': picking/(gl/|volumes/viewing_volume)', include)], [])
 
     def test_what_is_not_linked(self):
         """GL is loaded, and not linked."""
-        geometry, picking, query, ros, contact_adapter, mesh_adapter, simulator, robot_reader, snapshot = sys.argv[2:11]
+        geometry, picking, query, ros, contact_adapter, mesh_adapter, simulator, robot_reader = sys.argv[2:10]
         of_ros, other_layers = r'lib(ros|tf2|nodelet|xmlrpc)', r'liborgan_collision_(?!geometry)'
         for library, *patterns in (
             (geometry, of_ros, GL_LIBRARIES), (picking, of_ros, GL_LIBRARIES), (query, of_ros), (ros, PARSERS),
@@ -96,7 +93,6 @@ class LayersTest(unittest.TestCase):
             (mesh_adapter, GL_LIBRARIES, PARSERS, other_layers, r'lib(tf2|nodelet)\w*\.so'),
             (simulator, GL_LIBRARIES, PARSERS, other_layers),
             (robot_reader, GL_LIBRARIES, r'lib(roscpp|rosconsole|tf2|nodelet|xmlrpc)\.so'),
-            (snapshot, GL_LIBRARIES, r'liborgan_collision_(?!geometry|picking)'),
         ):
             linked = subprocess.check_output(['ldd', library], text=True)
             for pattern in patterns:

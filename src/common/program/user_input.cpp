@@ -43,10 +43,10 @@ void split_words(std::string_view line, std::vector<std::string_view>& words) {
   }
 }
 
-void split_cells(std::string_view line, std::vector<std::string_view>& cells, char separator) {
+void split_cells(std::string_view line, std::vector<std::string_view>& cells) {
   cells.clear();
   for (std::size_t begin = 0;;) {
-    const std::size_t end = line.find(separator, begin);
+    const std::size_t end = line.find(',', begin);
     cells.push_back(trimmed(line.substr(begin, end - begin)));
     if (end == std::string_view::npos) return;
     begin = end + 1;
@@ -80,10 +80,6 @@ std::optional<long long> parse_integer(std::string_view text) {
 
 void print(const std::string& text) {
   std::fwrite(text.data(), 1, text.size(), stdout);
-  flush_stdout();
-}
-
-void flush_stdout() {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
   throw std::runtime_error(std::string("stdout cannot be written: ") + std::strerror(errno));
 }

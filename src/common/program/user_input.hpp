@@ -36,7 +36,7 @@ void split_words(std::string_view line, std::vector<std::string_view>& words);
 
 /// Replaces `cells` by those of a CSV line, each trimmed. An empty line has one cell. Quotes have
 /// no special meaning.
-void split_cells(std::string_view line, std::vector<std::string_view>& cells, char separator = ',');
+void split_cells(std::string_view line, std::vector<std::string_view>& cells);
 
 /// The number that the whole `text` stands for, possibly infinite or NaN. None if it is not a
 /// number.
@@ -57,8 +57,6 @@ bool read_command_line(
 /// Writes to stdout at once, so that a reader who waits for an answer gets it. Throws
 /// std::runtime_error if stdout cannot be written, for example because the disk is full.
 void print(const std::string& text);
-/// Throws the same if anything that was written to stdout so far is lost.
-void flush_stdout();
 
 /// The exit code of a program that does this work: 0, or 2 after an InputError, or 1 after any
 /// other exception. Prints what the exception says in one line on stderr.
