@@ -164,23 +164,21 @@ def main():
                             formatter_class=argparse.RawDescriptionHelpFormatter).parse_args(rospy.myargv()[1:])
     # Without rospy's signal handler: Ctrl-C ends the report, and then the summary is printed.
     rospy.init_node('demo_report', disable_signals=True)
-    names = [rospy.get_param(*parameter) for parameter in (('~collision_node', '/organ_collision'),
-                                                           ('~haptic_node', '/haptic_proxy'))]
-    try:
-        has_answers = report(*names, float(rospy.get_param('~seconds', 0.0)))
-    except RuntimeError as error:
-        sys.exit('demo_report.py: %s' % error)
+    has_answers = report(rospy.get_param('~collision_node', '/organ_collision'),
+                         rospy.get_param('~haptic_node', '/haptic_proxy'), float(rospy.get_param('~seconds', 0.0)))
     if not has_answers:
         sys.exit(1)
     if rospy.get_param('~ends_launch', False):
         # Ends roslaunch, which has started this program, as Ctrl-C does. If this program ended first, roslaunch would
         # report the death of a required node as an error.
-        try:
-            os.kill(os.getppid(), signal.SIGINT)
-            signal.pause()
-        except KeyboardInterrupt:
-            pass
+        os.kill(os.getppid(), signal.SIGINT)
+        signal.pause()
 
 
 if __name__ == '__main__':
-    main()
+    try:
+        main()
+    except KeyboardInterrupt:
+        pass
+    except RuntimeError as error:
+        sys.exit('demo_report.py: %s' % error)
