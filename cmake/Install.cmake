@@ -26,7 +26,7 @@ install(DIRECTORY examples DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}
 install(PROGRAMS examples/ask.py examples/ask_many.py examples/dvrk_hand.py examples/dvrk_organ.py
   examples/dvrk_robot.py examples/grasper.py examples/lower_until_touch.py examples/numpy_simulator.py
   examples/own_mesh.py examples/plan_grasper.py examples/repeat_pose.py examples/simulator.py
-  scripts/view.py
+  scripts/demo_report.py scripts/view.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 # plan_grasper.py imports these from its own folder.
 install(FILES examples/grasper_kinematics.py examples/rrt_connect.py

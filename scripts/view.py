@@ -2,11 +2,15 @@
 """Starts RViz so that it shows the organs and tools of a collision node. Nothing needs to be edited: the fixed frame
 is that of the first organ, and the camera and the grid fit the size of the organs, also when other organs come.
 
-Usage: view.py [--fixed-frame FRAME] [--save FILE] [TOPIC]
+Usage: view.py [--fixed-frame FRAME] [--view YAW,PITCH] [--save FILE | --picture FILE [--size WxH]] [TOPIC]
 
-  TOPIC          the markers of the node; default: /organ_collision/markers
-  --fixed-frame  another fixed frame, to which TF connects the organs; empty: that of the first organ
-  --save FILE    writes the RViz configuration to FILE instead of starting RViz
+  TOPIC             the markers of the node; default: /organ_collision/markers
+  --fixed-frame     another fixed frame, to which TF connects the organs; empty: that of the first organ
+  --view YAW,PITCH  where the viewer is, seen from the organs: azimuth and elevation in degrees; write --view=-90,30
+  --save FILE       writes the RViz configuration to FILE instead of starting RViz
+  --picture FILE    writes a picture of RViz to FILE, such as liver.png, and ends. It needs no display, but the programs
+                    Xvfb and import (Debian: xvfb, imagemagick). If the scene moves, this takes half a minute
+  --size WxH        of the picture in pixels; default: 1280x800
 """
 
 import argparse
@@ -32,6 +36,9 @@ DISTANCE = 1.6  # of the camera from the organs, as a share of their diagonal
 TEXT_ROOM = 0.15  # the camera looks so far below the centre, because the status stands below the organ
 CELLS = 6  # of the grid, along that diagonal
 PATIENCE = 5.0  # [s] for a transform, and for RViz
+START = 60.0  # [s] for the start of RViz in software
+# RViz has drawn all if its picture has not changed for STILL [s]. The picture of a scene that moves is the third one.
+STILL, PICTURES = 8.0, 3
 # The view is fitted anew if the organs' centre has moved by more than this share of their diagonal, or if the diagonal
 # has changed by more than this factor. A deformation changes less.
 MOVED, GROWN = 0.5, 1.5
@@ -164,13 +171,17 @@ def fit(configuration, fixed_frame, box):
 class View:
     """An RViz whose configuration fits the organs."""
 
-    def __init__(self, organs, topic, fixed_frame, path):
+    def __init__(self, organs, topic, fixed_frame, path, angles=None):
+        """`angles`: yaw and pitch of the camera [degrees]."""
         self.organs, self.wanted_frame, self.path, self.shown = organs, fixed_frame, path, None
         with open(os.path.join(roslib.packages.get_pkg_dir('organ_collision'), CONFIGURATION)) as text:
             configuration = yaml.safe_load(text)
-        for display in configuration['Visualization Manager']['Displays']:
+        manager = configuration['Visualization Manager']
+        for display in manager['Displays']:
             if display['Name'] == 'Organs and tools':
                 display['Marker Topic'] = topic
+        if angles:
+            manager['Views']['Current'].update(zip(('Yaw', 'Pitch'), map(math.radians, angles)))
         self.write(configuration)
 
     def write(self, configuration):
@@ -185,8 +196,7 @@ class View:
     def show(self, rviz):
         """Runs RViz until somebody closes it."""
         name = rospy.get_name() + '_window'
-        arguments = [a for a in sys.argv[1:] if ':=' in a and not a.startswith(('__name:=', '__log:='))]
-        process = subprocess.Popen([rviz, '-d', self.path, '__name:=' + name.split('/')[-1]] + arguments)
+        process = subprocess.Popen(command(rviz, self.path))
         try:
             while process.poll() is None:
                 time.sleep(1.0)
@@ -216,12 +226,67 @@ class View:
         rospy.ServiceProxy(service, SendFilePath)(String(self.path))
 
 
+def command(rviz, path, *options):
+    """Starts RViz with a configuration, as the node NAME_window, where NAME is that of this node."""
+    arguments = [a for a in sys.argv[1:] if ':=' in a and not a.startswith(('__name:=', '__log:='))]
+    return [rviz, '-d', path, *options, '__name:=' + rospy.get_name().split('/')[-1] + '_window', *arguments]
+
+
+def take_picture(rviz, path, size, output):
+    """Writes a picture of RViz with a configuration, which gets this size of the window, in an X server that has no
+    screen. Raises RuntimeError."""
+    with open(path) as text:
+        configuration = yaml.safe_load(text)
+    configuration['Window Geometry'].update(zip(('Width', 'Height'), size))  # Nobody manages windows there.
+    with open(path, 'w') as text:
+        yaml.safe_dump(configuration, text)
+    reader, writer = os.pipe()
+    processes = []
+    try:
+        processes.append(subprocess.Popen(['Xvfb', '-displayfd', str(writer), '-screen', '0', '%dx%dx24' % size],
+                                          pass_fds=[writer], stderr=subprocess.DEVNULL))
+        os.close(writer)
+        with os.fdopen(reader) as display:
+            number = display.readline().strip()
+        environment = {**os.environ, 'DISPLAY': ':' + number, 'LIBGL_ALWAYS_SOFTWARE': '1', 'QT_X11_NO_MITSHM': '1'}
+        processes.append(subprocess.Popen(command(rviz, path, '--fullscreen'), env=environment,
+                                          stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL))
+        rospy.wait_for_service(rospy.get_name() + '_window/save_config', START)
+        before = None
+        for _ in range(PICTURES):
+            time.sleep(STILL)
+            subprocess.run(['import', '-window', 'root', '-strip', output], check=True, env=environment)
+            with open(output, 'rb') as picture:
+                before, last = picture.read(), before
+            if before == last:
+                break
+    except (OSError, rospy.ROSException, subprocess.CalledProcessError) as error:
+        raise RuntimeError('no picture of RViz: %s' % error) from error
+    finally:
+        for process in reversed(processes):
+            process.terminate()
+            process.wait()
+
+
+def numbers(separator, kind):
+    """Reads two numbers from an option's text."""
+    def read(text):
+        first, second = map(kind, text.split(separator))
+        return first, second
+    read.__name__ = 'two numbers with %r between them' % separator
+    return read
+
+
 def main():
     arguments = rospy.myargv()[1:]
     parser = argparse.ArgumentParser(prog='view.py', description=__doc__.split('\n\n')[0])
     parser.add_argument('topic', nargs='?', default='/organ_collision/markers', metavar='TOPIC')
     parser.add_argument('--fixed-frame', default='', metavar='FRAME')
-    parser.add_argument('--save', metavar='FILE')
+    parser.add_argument('--view', metavar='YAW,PITCH', type=numbers(',', float))
+    outputs = parser.add_mutually_exclusive_group()
+    outputs.add_argument('--save', metavar='FILE')
+    outputs.add_argument('--picture', metavar='FILE')
+    parser.add_argument('--size', metavar='WxH', type=numbers('x', int), default=(1280, 800))
     options = parser.parse_args(arguments)
 
     # Without the signal handler of rospy: that one may wait for ever for what the main thread was doing.
@@ -232,7 +297,7 @@ def main():
     organs.wait(topic)
     try:
         path = options.save or tempfile.mkstemp(prefix='organ_collision_', suffix='.rviz')[1]
-        view = View(organs, topic, options.fixed_frame, path)
+        view = View(organs, topic, options.fixed_frame, path, options.view)
     except tf2_ros.TransformException as error:
         sys.exit("view.py: TF does not connect the fixed frame '%s' with the organ's frame '%s': %s; name another one, "
                  'or none' % (options.fixed_frame, organs.box()[0], error))
@@ -241,7 +306,12 @@ def main():
     rviz = roslib.packages.find_node('rviz', 'rviz')
     if not rviz:
         sys.exit('view.py: RViz is not installed; install the package rviz')
-    sys.exit(view.show(rviz[0]))
+    if not options.picture:
+        sys.exit(view.show(rviz[0]))
+    try:
+        take_picture(rviz[0], path, options.size, options.picture)
+    except RuntimeError as error:
+        sys.exit('view.py: %s' % error)
 
 
 if __name__ == '__main__':

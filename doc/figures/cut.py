@@ -8,7 +8,7 @@ Usage: . devel/setup.bash && doc/figures/cut.py
 import os
 import tempfile
 
-from live_scene import (HERE, NODE, Camera, StillMarkers, collision_node, demo_tools, ros_master, snapshot, started,
+from live_scene import (HERE, NODE, Camera, StillMarkers, collision_node, demo_tools, ros_master, rviz_picture, started,
                         wait_until)
 
 import style
@@ -17,7 +17,6 @@ WHOLE = 1224  # faces of the liver
 SHOWN = {'surface/liver', 'tools', 'swept', 'touched'}  # namespaces of markers
 MARKERS_DEPTH = 0.25  # [m] Touched faces are yellow to red, and easy to see.
 CAMERA = Camera((-12, 30), (0.060, -0.005, 0.006), 0.21, (800, 640))
-PICTURE = ['--frame', 'liver', '--topic', 'still', '--background', '#ffffff']
 
 
 def faces(markers, name_space):
@@ -32,12 +31,11 @@ def main():
         with collision_node(*demo_tools(), markers_depth=MARKERS_DEPTH), started(*simulator):
             for axes, is_cut, title in zip(panels, (False, True), ('Before the cut', 'After the cut')):
                 wait_until(lambda: markers.has(SHOWN) and (faces(markers, 'surface/liver') != WHOLE) == is_cut, title)
-                markers.markers = {key: marker for key, marker in markers.markers.items() if marker.ns in SHOWN}
                 # Both sides of a touched face are drawn.
                 counts = faces(markers, 'touched') // 2, faces(markers, 'surface/liver')
-                markers.still()
+                markers.still(SHOWN)
                 picture = os.path.join(folder, 'cut.png')
-                snapshot(picture, *CAMERA.options(), *PICTURE)
+                rviz_picture(picture, CAMERA, markers)
                 axes.imshow(style.plt.imread(picture), interpolation='lanczos')
                 axes.axis('off')
                 axes.set_title('%s: %d of %d faces touched' % (title, *counts), color=style.TEXT)

@@ -9,7 +9,7 @@ Usage: . devel/setup.bash && doc/figures/haptics.py
 import os
 import tempfile
 
-from live_scene import HERE, NODE, Camera, StillMarkers, ros_master, snapshot, started, wait_until
+from live_scene import HERE, NODE, Camera, StillMarkers, ros_master, rviz_picture, started, wait_until
 import numpy as np
 
 import style
@@ -17,7 +17,6 @@ import style
 DEEP = 0.009  # [m] from hand to proxy
 RADIUS = 0.005  # [m] of the palpator
 SHOWN = {'surface/liver', 'proxy', 'hand', 'spring', 'loads'}  # namespaces of markers
-PICTURE = ['--frame', 'liver', '--topic', 'still', '--background', '#ffffff']
 HALF_WIDTH, BELOW, ABOVE = 0.040, 0.030, 0.036  # [m] of the section, around the proxy
 HAND, PROXY, LIVER, FORCE = '#5b9bd5', '#8c9196', '#d98c7a', '#e0a100'
 
@@ -127,10 +126,10 @@ def main():
             proxy, _ = moment.spring()
             for marker in moment.all('surface/liver'):
                 marker.color.a = 0.5  # The hand is inside.
-            markers.still()
+            markers.still(SHOWN)
             camera = Camera((-60, 12), proxy + (0.0, 0.0, -0.004), 0.13, (800, 800))
             picture = os.path.join(folder, 'hand.png')
-            snapshot(picture, *camera.options(), *PICTURE)
+            rviz_picture(picture, camera, markers)
         figure, (left, right) = style.panels(2, 4.2)
         left.imshow(style.plt.imread(picture), interpolation='lanczos')
         left.axis('off')

@@ -10,11 +10,10 @@ import os
 import tempfile
 
 from geometry_msgs.msg import Point, Pose, Quaternion, Vector3
-from live_scene import HERE, NODE, Camera, Scene, StillMarkers, collision_node, liver, ros_master, snapshot
+from live_scene import HERE, NODE, Camera, Scene, StillMarkers, collision_node, liver, ros_master, rviz_picture
 import numpy as np
-import rospy
 from std_msgs.msg import ColorRGBA, Header
-from visualization_msgs.msg import Marker, MarkerArray
+from visualization_msgs.msg import Marker
 
 import style
 
@@ -25,8 +24,6 @@ BEFORE, NOW = np.array([0.062, -0.060, -0.022]), np.array([0.062, 0.095, -0.022]
 MARKERS_DEPTH = 0.25  # [m] Touched faces are yellow to red, and easy to see.
 
 CAMERA = Camera((-20, 30), (0.020, 0.018, 0.040), 0.30, (800, 700))
-PICTURE = ['--background', '#ffffff', '--topic', 'still', '--topic', 'before',
-           '--hide', 'normals', '--hide', 'names', '--hide', 'status']
 
 
 def ghost(frame):
@@ -39,10 +36,9 @@ def ghost(frame):
     turn = Quaternion(turn.x / size, turn.y / size, turn.z / size, turn.w / size)
     width = 2 * TOOL['radius']
     shapes = ((Marker.CYLINDER, 0.5 * (TROCAR + BEFORE), length), (Marker.SPHERE, BEFORE, width))
-    return MarkerArray([Marker(header=Header(frame_id=frame), ns='before', id=i, type=shape,
-                               pose=Pose(Point(*place), turn), scale=Vector3(width, width, height),
-                               color=ColorRGBA(0.75, 0.80, 0.88, 0.40))
-                        for i, (shape, place, height) in enumerate(shapes)])
+    return [Marker(header=Header(frame_id=frame), ns='before', type=shape, pose=Pose(Point(*place), turn),
+                   scale=Vector3(width, width, height), color=ColorRGBA(0.75, 0.80, 0.88, 0.40))
+            for shape, place, height in shapes]
 
 
 def draw_panel(axes, picture, title, color):
@@ -57,8 +53,6 @@ def draw_panel(axes, picture, title, color):
 def main():
     with ros_master('hero'), tempfile.TemporaryDirectory() as folder:
         mesh = liver()
-        publisher = rospy.Publisher('before', MarkerArray, latch=True, queue_size=1)
-        publisher.publish(ghost(mesh.header.frame_id))
         figure, panels = style.panels(2, 4.0)
         with collision_node(TOOL, markers_depth=MARKERS_DEPTH):
             scene = Scene(mesh, TOOL['name'], TROCAR)
@@ -68,8 +62,9 @@ def main():
                     (panels[0], [NOW], set(), 'Static query: %d faces touched', style.TEXT),
                     (panels[1], [BEFORE, NOW], {'swept', 'touched'}, 'Swept query: %d faces touched', style.FACE)):
                 picture = os.path.join(folder, '%d.png' % len(tips))
-                answer = scene.moment(tips, markers, {'surface/liver', 'tools'} | traces)
-                snapshot(picture, *CAMERA.options(), *PICTURE)
+                answer = scene.moment(tips, markers, {'surface/liver', 'tools'} | traces,
+                                      *ghost(mesh.header.frame_id))
+                rviz_picture(picture, CAMERA, markers)
                 draw_panel(axes, picture, title % len(answer.contacts), color)
         figure.tight_layout()
         style.save_picture(figure, os.path.join(HERE, 'hero.png'))

@@ -1,11 +1,12 @@
 """What the scripts share that take pictures of the running node: a ROS master, the demo's liver at rest, one tool
-that moves in steps, and the program `snapshot`."""
+that moves in steps, and RViz without a display."""
 
 import contextlib
 import os
 import signal
 import socket
 import subprocess
+import sys
 import tempfile
 import time
 
@@ -13,6 +14,7 @@ from geometry_msgs.msg import TransformStamped
 import numpy as np
 from organ_collision.msg import ContactArray, OrganMesh
 import rosgraph
+import roslib.packages
 import rospy
 from std_srvs.srv import Empty
 from tf2_msgs.msg import TFMessage
@@ -20,9 +22,11 @@ from visualization_msgs.msg import Marker, MarkerArray
 import yaml
 
 HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.append(os.path.join(HERE, '..', '..', 'scripts'))
+import view  # noqa: E402
+
 NODE = '/organ_collision'
 LIMIT = 60.0  # [s] longest wait for anything
-STILL = 8.0  # [s] RViz has drawn all if its picture has not changed for so long.
 FRESH = 0.7  # The least opacity of touched faces: traces of an older step fade.
 
 
@@ -86,17 +90,13 @@ def collision_node(*tools, **parameters):
 
 class Camera:
     """Where the viewer is: azimuth and elevation [degrees], what is in the middle of the picture, how far away it is
-    [m]; the picture's size [pixels]."""
+    [m]; the picture's size [pixels]; the background, as RViz writes colours."""
 
-    FIELD_OF_VIEW = 0.785  # [rad] vertical, of RViz and snapshot
+    FIELD_OF_VIEW = 0.785  # [rad] vertical
 
-    def __init__(self, view, target, distance, size):
+    def __init__(self, view, target, distance, size, background='255; 255; 255'):
         self.view, self.target, self.distance, self.size = view, np.array(target), distance, size
-
-    def options(self):
-        """Of the program snapshot."""
-        return ['--view', '%g,%g' % self.view, '--target', '%g,%g,%g' % tuple(self.target),
-                '--distance', '%g' % self.distance, '--size', '%dx%d' % self.size]
+        self.background = background
 
     def pixel(self, place):
         """Where the picture shows a place of its frame: from the left and from the top."""
@@ -108,45 +108,29 @@ class Camera:
         return (0.5 * self.size[0] + scale * (way @ right), 0.5 * self.size[1] - scale * (way @ np.cross(back, right)))
 
 
-def snapshot(output, *options):
-    subprocess.run(['rosrun', 'organ_collision', 'snapshot', '--timeout', str(LIMIT), *options, '--output', output],
-                   check=True)
-
-
-def rviz_picture(output, camera, publisher):
-    """A picture of RViz, which shows the markers that this publisher has sent, once it does not change any more. Needs
-    rviz, xvfb and imagemagick."""
-    with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, 'view.rviz')
-        subprocess.run(['rosrun', 'organ_collision', 'view.py', publisher.resolved_name, '--save', path], check=True)
-        wait_until(lambda: publisher.get_num_connections() == 0, 'the end of view.py')
-        with open(path) as text:
-            configuration = yaml.safe_load(text)
-        manager = configuration['Visualization Manager']
-        view = manager['Views']['Current']
-        view['Yaw'], view['Pitch'] = map(float, np.radians(camera.view))
-        view['Distance'], view['Focal Point'] = camera.distance, dict(zip('XYZ', map(float, camera.target)))
-        view['Field of View'] = camera.FIELD_OF_VIEW
-        configuration['Window Geometry'].update(zip(('Width', 'Height'), camera.size))
-        with open(path, 'w') as text:
-            yaml.safe_dump(configuration, text)
-        display = ':%d' % (100 + os.getpid() % 900)
-        screen = {'DISPLAY': display, 'LIBGL_ALWAYS_SOFTWARE': '1', 'QT_X11_NO_MITSHM': '1'}
-        with started('Xvfb', display, '-screen', '0', '%dx%dx24' % camera.size, '+extension', 'GLX'):
-            with started('rosrun', 'rviz', 'rviz', '--fullscreen', '-d', path, **screen):
-                wait_until(publisher.get_num_connections, 'RViz')
-                pictures = [None, b'']
-                while pictures[-1] != pictures[-2]:
-                    time.sleep(STILL)
-                    subprocess.run(['import', '-window', 'root', '-strip', output], check=True,
-                                   env={**os.environ, **screen})
-                    with open(output, 'rb') as picture:
-                        pictures.append(picture.read())
+def rviz_picture(output, camera, markers):
+    """A picture of RViz, which shows the markers that StillMarkers.still() has published. Needs rviz, xvfb and
+    imagemagick."""
+    with open(os.path.join(HERE, '..', '..', view.CONFIGURATION)) as text:
+        configuration = yaml.safe_load(text)
+    manager = configuration['Visualization Manager']
+    manager['Global Options'].update({'Fixed Frame': 'liver', 'Background Color': camera.background})
+    manager['Displays'] = [{'Class': 'rviz/MarkerArray', 'Name': 'still', 'Enabled': True, 'Namespaces': {},
+                            'Marker Topic': markers.publisher.resolved_name, 'Queue Size': 4000}]
+    orbit = manager['Views']['Current']
+    orbit['Yaw'], orbit['Pitch'] = map(float, np.radians(camera.view))
+    orbit['Distance'], orbit['Focal Point'] = camera.distance, dict(zip('XYZ', map(float, camera.target)))
+    orbit['Field of View'] = camera.FIELD_OF_VIEW
+    rviz, *_ = roslib.packages.find_node('rviz', 'rviz')
+    with tempfile.NamedTemporaryFile('w', suffix='.rviz') as file:
+        yaml.safe_dump(configuration, file)
+        file.flush()
+        view.take_picture(rviz, file.name, camera.size, output)
 
 
 class StillMarkers:
-    """Keeps the markers of topics as RViz does. still() publishes all that are there at that time on the topic
-    `still`, for a picture of one moment."""
+    """Keeps the markers of topics as RViz does. still() publishes those that are there at that time on the topic `still`,
+    for a picture of one moment."""
 
     def __init__(self, *topics):
         self.markers = {}
@@ -169,8 +153,9 @@ class StillMarkers:
         opacity = [color.a for marker in markers if marker.ns == 'touched' for color in marker.colors]
         return namespaces <= {marker.ns for marker in markers} and min(opacity, default=1.0) > FRESH
 
-    def still(self):
-        markers = list(self.markers.values())
+    def still(self, namespaces, *others):
+        """Publishes the markers of these namespaces, and others."""
+        markers = [marker for marker in list(self.markers.values()) if marker.ns in namespaces] + list(others)
         for number, marker in enumerate(markers):
             marker.id, marker.lifetime = number, rospy.Duration()
         self.publisher.publish(markers)
@@ -222,16 +207,16 @@ class Scene:
         self.reset()
         return [self.move_tool(tip) for tip in tips][-1]
 
-    def moment(self, tips, markers, namespaces):
-        """Plays the tool's steps until all that these namespaces show is there at one moment, and publishes this moment
-        on the topic `still`. Returns the last answer."""
+    def moment(self, tips, markers, namespaces, *others):
+        """Plays the tool's steps until all that these namespaces show is there at one moment, and publishes this moment,
+        and other markers, on the topic `still`. Returns the last answer."""
         end = time.monotonic() + LIMIT
         while time.monotonic() < end:
             answer = self.play(tips)
             patience = time.monotonic() + 2.0
             while time.monotonic() < patience:
                 if markers.has(namespaces):
-                    markers.still()
+                    markers.still(namespaces, *others)
                     return answer
                 time.sleep(0.01)
         raise SystemExit('waited %g s for markers of %s' % (LIMIT, ', '.join(sorted(namespaces))))

@@ -7,7 +7,7 @@ Usage: . devel/setup.bash && doc/figures/paper_figures.py
 
 import os
 
-from live_scene import HERE, NODE, Scene, StillMarkers, collision_node, liver, ros_master, snapshot
+from live_scene import HERE, NODE, Camera, Scene, StillMarkers, collision_node, liver, ros_master, rviz_picture
 
 # The tool, in the liver's frame [m]. It is thin, like the segment in the paper's figures.
 TOOL = {'name': 'tool', 'trocar_frame': 'trocar', 'tip_frame': 'tip', 'radius': 0.002}
@@ -15,10 +15,8 @@ TROCAR = (0.030, 0.080, 0.150)
 BEFORE, AFTER = (-0.070, -0.020, 0.015), (0.020, -0.035, 0.010)
 MARKERS_DEPTH = 0.25  # [m] Touched faces are yellow to red, and easy to see.
 
-CAMERA = ['--view', '-80,45', '--target', '0.0,0.0,0.025', '--distance', '0.27']
-PICTURE = ['--size', '720x540', '--background', '#ffffff', '--topic', 'still']
+CAMERA = Camera((-80, 45), (0.0, 0.0, 0.025), 0.27, (720, 540))
 SHOWN = {'surface/liver', 'tools', 'touched'}
-HIDDEN = ['--hide', 'normals', '--hide', 'crossings', '--hide', 'names', '--hide', 'status']
 
 
 def main():
@@ -30,7 +28,7 @@ def main():
             for tips, shown, file in (([BEFORE], SHOWN, 'paper_figure_9.png'),
                                       ([BEFORE, AFTER], SHOWN | {'swept'}, 'paper_figure_10.png')):
                 scene.moment(tips, markers, shown)
-                snapshot(os.path.join(HERE, file), *CAMERA, *PICTURE, *HIDDEN)
+                rviz_picture(os.path.join(HERE, file), CAMERA, markers)
 
 
 if __name__ == '__main__':

@@ -7,37 +7,44 @@ Usage: . devel/setup.bash && doc/figures/planned_path.py
 
 import os
 import tempfile
+import time
 
-from live_scene import HERE, NODE, Camera, ros_master, snapshot, started, wait_until
+from live_scene import HERE, NODE, Camera, StillMarkers, ros_master, rviz_picture, started, wait_until
 import numpy as np
 import rospy
+from sensor_msgs.msg import JointState
 from std_msgs.msg import ColorRGBA
-from visualization_msgs.msg import MarkerArray
 
 import style
 
 GREEN = ColorRGBA(*style.plt.matplotlib.colors.to_rgba(style.BOUND))
-WIDTH = 0.0014     # [m] of the line
-ON_ITS_WAY = 16.0  # [s] longer than the grasper needs for its way
+WIDTH = 0.0014  # [m] of the line
+REST = 1.0      # [s] The grasper has arrived if its joints have not changed for so long.
+SHOWN = {'surface/liver', 'tools', 'path'}  # namespaces of markers
 CAMERA = Camera((-15, -15), (0.02, -0.05, 0.008), 0.28, (1500, 820))
-PICTURE = ['--frame', 'liver', '--background', '#ffffff', '--after', '1', '--topic', 'organ_collision/markers',
-           '--topic', 'path', '--hide', 'swept', '--hide', 'clearance', '--hide', 'names', '--hide', 'status']
 
 
-class Line:
-    """Takes the planner's line out of the node's markers, and publishes it again, to be seen by late subscribers."""
+class Grasper:
+    """Whether the grasper has arrived at the end of its way."""
 
     def __init__(self):
-        self.points = []
-        self.publisher = rospy.Publisher('path', MarkerArray, latch=True, queue_size=1)
-        self.subscriber = rospy.Subscriber(NODE + '/markers', MarkerArray, self.note)
+        self.start, self.position, self.changed = None, None, 0.0
+        self.subscriber = rospy.Subscriber('joint_states', JointState, self.note)
 
-    def note(self, array):
-        for marker in array.markers:
-            if marker.ns == 'path':
-                marker.color, marker.scale.x = GREEN, WIDTH
-                self.publisher.publish([marker])
-                self.points = [np.array([point.x, point.y, point.z]) for point in marker.points]
+    def note(self, state):
+        self.start = self.start or state.position
+        if state.position != self.position:
+            self.position, self.changed = state.position, time.monotonic()
+
+    def has_arrived(self):
+        return self.position != self.start and time.monotonic() > self.changed + REST
+
+
+def line_of(markers):
+    """The planner's line, in the colour of the figure."""
+    (line,) = (marker for marker in list(markers.markers.values()) if marker.ns == 'path')
+    line.color, line.scale.x = GREEN, WIDTH
+    return [np.array([point.x, point.y, point.z]) for point in line.points]
 
 
 def draw(picture, line):
@@ -62,13 +69,15 @@ def draw(picture, line):
 
 def main():
     with ros_master('planned_path'), tempfile.TemporaryDirectory() as folder:
-        line = Line()
+        markers, grasper = StillMarkers(NODE + '/markers'), Grasper()
         with started('roslaunch', 'organ_collision', 'plan.launch'):
-            wait_until(lambda: line.points, 'the path')
-            rospy.sleep(ON_ITS_WAY)
+            wait_until(grasper.has_arrived, 'the grasper')
+            wait_until(lambda: markers.has(SHOWN), 'the path')
+            line = line_of(markers)
+            markers.still(SHOWN)
             picture = os.path.join(folder, 'path.png')
-            snapshot(picture, *CAMERA.options(), *PICTURE)
-        draw(picture, line.points)
+            rviz_picture(picture, CAMERA, markers)
+        draw(picture, line)
 
 
 if __name__ == '__main__':

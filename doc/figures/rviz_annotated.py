@@ -24,7 +24,7 @@ HOOK = {'name': 'hook', 'trocar_frame': 'hook_trocar', 'tip_frame': 'hook_tip', 
 HOOK_TROCAR, HOOK_TIP = (0.130, -0.02, 0.070), (0.068, 0.005, 0.032)
 # Namespaces of markers.
 SHOWN = {'surface/liver', 'tools', 'swept', 'touched', 'normals', 'names', 'crossings', 'clearance', 'near', 'status'}
-CAMERA = Camera((-80, 32), (0.0, 0.0, -0.020), 0.300, (1600, 960))
+CAMERA = Camera((-80, 32), (0.0, 0.0, -0.020), 0.300, (1600, 960), '40; 45; 54')
 
 
 def place(point):
@@ -77,7 +77,7 @@ def main():
             wait_until(lambda: HOOK['name'] in scene.answers, 'the hook')
             scene.moment([BEFORE, NOW], markers, SHOWN)
             picture = os.path.join(folder, 'rviz.png')
-            rviz_picture(picture, CAMERA, markers.publisher)
+            rviz_picture(picture, CAMERA, markers)
             draw(picture, call_outs(mesh, scene.answers[PROBE['name']], scene.answers[HOOK['name']]))
 
 

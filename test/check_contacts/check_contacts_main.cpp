@@ -4,6 +4,7 @@
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
 
+#include <boost/program_options/value_semantic.hpp>
 #include <cmath>
 #include <iostream>
 #include <list>
@@ -119,14 +120,16 @@ int watch(const std::vector<std::string>& topics, double seconds) {
 }
 
 int run(int argc, char** argv) {
-  std::vector<std::string> topics, words;
+  std::vector<std::string> topics{"organ_collision/contacts"}, words;
   double seconds = INFINITY;
-  CommandLine line("check_contacts", kHelp);
-  line.number("seconds", seconds, 0.001, 1e9);
+  namespace po = boost::program_options;
+  po::options_description legal;
+  legal.add_options()("seconds", po::value(&seconds))("topic", po::value(&topics));
+  po::positional_options_description positional;
+  positional.add("topic", -1);
   ros::removeROSArgs(argc, argv, words);
   words.erase(words.begin());
-  if (!line.read(words, &topics)) return kNothingFound;
-  if (topics.empty()) topics = {"organ_collision/contacts"};
+  if (!read_command_line("check_contacts", kHelp, words, legal, positional)) return kNothingFound;
   ros::init(argc, argv, "check_contacts");
   return watch(topics, seconds);
 }

@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "demo/fem_block.hpp"
 #include "demo/liver.hpp"
+#include "examples/fem_block.hpp"
 #include "geometry/distance/closest_points.hpp"
 
 namespace organ_collision {

@@ -162,9 +162,9 @@ class PagesTest(unittest.TestCase):
     def test_each_program_that_a_page_names_is_installed(self):
         """Except those that stand with their path in the devel space, on pages that users do not need."""
         build_files = {path: read(path) for path in found('*', 'CMakeLists.txt') + found('*', '*', 'CMakeLists.txt')
-                       + ['cmake/Install.cmake']}
-        installed = {name for text in build_files.values() for name in re.findall(r'organ_collision_program\(\s*(\w+)', text)
-                     } | set(re.findall(r'\w+\.py', build_files['cmake/Install.cmake']))
+                       + found('src', '*', '*', 'CMakeLists.txt') + ['cmake/Install.cmake']}
+        installed = {name for text in build_files.values()
+                     for name in re.findall(r'(?:organ_collision_program\(\s*|OUTPUT_NAME )(\w+)', text)} | set(re.findall(r'\w+\.py', build_files['cmake/Install.cmake']))
         built = {name for text in build_files.values() for name in re.findall(r'add_executable\(\s*(\w+)', text)}
         self.assertGreater(min(len(installed), len(built)), 5)
         called = {(page, name) for page, text in PAGES.items()

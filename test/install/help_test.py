@@ -14,7 +14,7 @@ import unittest
 SOURCE, DEVEL = sys.argv[1:3]
 # Modules that programs import are not executable.
 SCRIPTS = [path for path in glob.glob(os.path.join(SOURCE, 'examples', '*.py')) if os.access(path, os.X_OK)] + [
-    os.path.join(SOURCE, 'scripts', 'view.py')]
+    os.path.join(SOURCE, 'scripts', name) for name in ('view.py', 'demo_report.py')]
 # The programs of tests and benchmarks, besides the unit tests.
 NOT_SHIPPED = ('exactness_proof', 'proxy_proof', 'collision_benchmark', 'end_to_end', 'pose_to_wrench',
                'echo_node', 'ask_batches', 'motions_benchmark', 'soak', 'fuzz')
@@ -47,7 +47,7 @@ class HelpTest(unittest.TestCase):
                     self.assertRegex(done.stdout.lower(), r'\A\s*usage')
 
     def test_an_unknown_option_is_refused(self):
-        for name in [*NODES, 'liver_simulator', 'demo_report', 'robot_reader']:
+        for name in [*NODES, 'liver_simulator', 'robot_reader']:
             done = run(program(name), '--no-such-option')
             with self.subTest(program=name):
                 self.assertEqual((done.returncode, done.stdout), (2, ''))

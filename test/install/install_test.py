@@ -21,10 +21,9 @@ PYTHON_OF_ROS = glob.glob('/opt/ros/*/lib/python3*/*-packages')  # Debian has it
 PLAIN_ENVIRONMENT = {'PATH': '/usr/bin:/bin', 'HOME': os.environ.get('HOME', '/')}
 # The programs in Python: the examples that can be executed, and what the launch files start.
 SCRIPTS = {name for name in os.listdir(os.path.join(SOURCE, 'examples'))
-           if name.endswith('.py') and os.access(os.path.join(SOURCE, 'examples', name), os.X_OK)} | {'view.py'}
-PROGRAMS = {'organ_collision_node', 'robot_reader', 'organ_mesh_adapter', 'haptic_proxy',
-            'query_offline',
-            'replay', 'snapshot', 'liver_simulator', 'demo_report', 'stylus_driver', 'plan_grasper'}
+           if name.endswith('.py') and os.access(os.path.join(SOURCE, 'examples', name), os.X_OK)} | {'view.py', 'demo_report.py'}
+PROGRAMS = {'organ_collision_node', 'robot_reader', 'organ_mesh_adapter', 'haptic_proxy', 'query_offline', 'replay',
+            'liver_simulator', 'fem_tissue', 'stylus_driver'}
 SHIPPED = [folder + '/' + name for folder in ('launch', 'config', 'urdf', 'msg', 'srv')
            for name in os.listdir(os.path.join(SOURCE, folder)) if os.path.isfile(os.path.join(SOURCE, folder, name))]
 

@@ -1,8 +1,7 @@
 #!/usr/bin/python3
-"""What each layer (geometry <- picking <- query <- ros) and each program includes and links.
+"""A folder of src is a library, which includes and links only what stands before it.
 
-Usage: layers_test.py SOURCE_FOLDER GEOMETRY_LIBRARY PICKING_LIBRARY QUERY_LIBRARY ROS_LIBRARY
-                      MESH_ADAPTER LIVER_SIMULATOR ROBOT_READER SNAPSHOT
+Usage: layers_test.py SOURCE_FOLDER NAME=FILE...: the libraries and programs to look into
 """
 
 import glob
@@ -13,40 +12,42 @@ import sys
 import unittest
 
 SOURCE = sys.argv[1]
-LAYERS = ['geometry', 'picking', 'query', 'ros']
-# The folders of a layer, in the order in which data flows through them.
+FILES = dict(argument.split('=', 1) for argument in sys.argv[2:])
+# What each folder of src may include beside itself.
+CORE = ['geometry', 'picking', 'query']
+MAY_INCLUDE = {
+    'geometry': [], 'picking': CORE[:1], 'query': CORE[:2], 'common': ['geometry'], 'node': CORE + ['common'],
+    'haptics': CORE + ['common', 'node'], 'adapters': ['geometry', 'common'], 'demo': ['geometry', 'common'],
+    'programs/query_offline': CORE + ['common'], 'programs/robot_reader': ['geometry', 'common'],
+    'programs/replay': CORE + ['common', 'node'],
+}
+# The folders of a library, in the order in which data flows through them: each uses only those before it.
 ROOMS = {'geometry': ['organ', 'tool', 'distance', 'sides'],
          'picking': ['volumes', 'culling', 'gl', 'pickers'],
-         'ros': ['messages', 'threads', 'parameters', 'organs', 'tools', 'motion', 'steps', 'publishing', 'queries',
-                 'markers', 'node']}
-ROS = re.compile(r'\b(ros|roscpp|tf2|nodelet|pluginlib|diagnostic_updater|\w+_msgs|std_srvs)[_/]')
-GL = re.compile(r'\b(GL|EGL)/')
+         'common': ['messages', 'threads', 'parameters', 'program'],
+         'node': ['parameters', 'organs', 'tools', 'motion', 'steps', 'publishing', 'queries', 'markers']}
+ROS = re.compile(r'((ros|roscpp|tf2\w*|nodelet|pluginlib|diagnostic_updater|\w+_msgs|std_srvs)/|organ_collision/\w+\.h$)')
+GL = re.compile(r'(GL|EGL)/')
 GL_LIBRARIES = r'lib(OSMesa|GL|EGL)\.so'
-PARSERS = r'lib(assimp|urdfdom\w*|tinyxml2?)\.so'
-# The layers that the adapters must not use, and the folders and files of the node. The names of the modes are
-# allowed: that header links nothing.
-NODE = re.compile(r'(organ_collision/)?(picking|query)/(?!query_mode\.hpp)'
-                  r'|ros/(markers|motion|organs|publishing|queries|steps|tools)/'
-                  r'|ros/node/(?!program)|ros/parameters/(node|tool)_parameters')
+ROS_LIBRARIES = r'lib(roscpp|rosconsole|tf2\w*|nodelet\w*|xmlrpcpp)\.so'
+PARSERS = r'lib(assimp|urdfdom\w*|tinyxml2?|vtk\w*)[-.\d]*\.so'
 
 
-def includes(room, files='*'):
-    """All (file, included path) of the headers and sources of a layer or another folder of src/."""
+def includes(room):
+    """All (file, included path) of the headers and sources of a folder of src/ and of include/organ_collision/."""
     for folder in ('include/organ_collision', 'src'):
-        for path in glob.glob(os.path.join(SOURCE, folder, room, '**', files + '.?pp'), recursive=True):
+        for path in glob.glob(os.path.join(SOURCE, folder, room, '**', '*.?pp'), recursive=True):
             with open(path) as text:
                 for included in re.findall(r'^\s*#\s*include\s*[<"]([^>"]+)', text.read(), re.M):
-                    yield os.path.relpath(path, SOURCE), included
-
-
-def matching(room, pattern, files='*'):
-    """All 'file: included path' of a folder that match."""
-    found = list(includes(room, files))
-    assert found, room
-    return ['%s: %s' % (path, included) for path, included in found if pattern.match(included)]
+                    yield os.path.relpath(path, SOURCE), re.sub('^organ_collision/(?=.*hpp$)', '', included)
 
 
 class LayersTest(unittest.TestCase):
+
+    def matching(self, room, pattern):
+        found = list(includes(room))
+        self.assertTrue(found, room)
+        return ['%s: %s' % (path, included) for path, included in found if re.match(pattern, included)]
 
     def test_each_nodelet_that_is_loaded_by_its_name_is_a_plugin(self):
         with open(os.path.join(SOURCE, 'nodelet_plugins.xml')) as text:
@@ -61,47 +62,42 @@ class LayersTest(unittest.TestCase):
         self.assertGreater(len(loaded), 5)
         self.assertEqual([found for found in sorted(loaded) if found[1] not in plugins], [])
 
-    def test_a_layer_and_a_folder_include_only_themselves_and_those_before_them(self):
-        for layer, rooms in ROOMS.items():
-            folders = [name for name in os.listdir(os.path.join(SOURCE, 'src', layer))
-                       if os.path.isdir(os.path.join(SOURCE, 'src', layer, name))]
-            self.assertEqual(sorted(folders), sorted(rooms), layer)
-        orders = [('', LAYERS)] + [(layer + '/', rooms) for layer, rooms in ROOMS.items()]
-        for prefix, order in orders:
-            for rank, room in enumerate(order[:-1]):
-                later = re.compile(r'(?:organ_collision/)?%s(?:%s)/' % (prefix, '|'.join(order[rank + 1:])))
-                self.assertEqual(matching(prefix + room, later), [])
+    def test_a_folder_includes_only_itself_and_what_it_may_include(self):
+        folders = set(os.path.relpath(path, os.path.join(SOURCE, 'src')) for path in
+                      glob.glob(os.path.join(SOURCE, 'src', '*')) + glob.glob(os.path.join(SOURCE, 'src/programs/*'))
+                      if os.path.isdir(path))
+        self.assertEqual(folders, set(MAY_INCLUDE) | {'programs'})
+        for room, allowed in MAY_INCLUDE.items():
+            others = '|'.join(other for other in MAY_INCLUDE if other != room and other not in allowed)
+            self.assertEqual(self.matching(room, r'(%s)/' % others), [])
 
-    def test_what_is_included_only_in_some_folders(self):
-        message = re.compile(r'organ_collision/\w+\.h$')
-        adapters = ('ros/messages', 'forces', 'mesh_adapter')
-        for pattern, rooms in ((ROS, LAYERS[:-1]), (message, LAYERS[:-1]),
-                               (GL, ['geometry', 'query', 'ros', 'snapshot']),
-                               (NODE, adapters)):
-            for room in rooms:
-                self.assertEqual(matching(room, pattern), [])
-        # robot_reader shares this with the node.
-        self.assertEqual(matching('ros/messages', ROS, 'text'), [])
-        # snapshot takes GL from picking, and nothing from query and the node.
-        self.assertEqual([include for include in matching('snapshot', NODE)
-                          if not re.search(r': picking/(gl/|volumes/viewing_volume)', include)], [])
+    def test_a_room_of_a_library_includes_only_those_before_it(self):
+        for library, rooms in ROOMS.items():
+            folders = [name for name in os.listdir(os.path.join(SOURCE, 'src', library))
+                       if os.path.isdir(os.path.join(SOURCE, 'src', library, name))]
+            self.assertEqual(sorted(folders), sorted(rooms), library)
+            for rank, room in enumerate(rooms[:-1]):
+                later = r'%s/(%s)/' % (library, '|'.join(rooms[rank + 1:]))
+                self.assertEqual(self.matching(library + '/' + room, later), [])
+
+    def test_ros_is_included_after_the_core_and_gl_only_in_picking(self):
+        for room in CORE + ['programs/query_offline']:
+            self.assertEqual(self.matching(room, ROS), [])
+        for room in set(MAY_INCLUDE) - {'picking'}:
+            self.assertEqual(self.matching(room, GL), [])
 
     def test_what_is_not_linked(self):
-        """GL is loaded, and not linked."""
-        geometry, picking, query, ros, mesh_adapter, simulator, robot_reader, snapshot = sys.argv[2:10]
-        of_ros, other_layers = r'lib(ros|tf2|nodelet|xmlrpc)', r'liborgan_collision_(?!geometry)'
-        for library, *patterns in (
-            (geometry, of_ros, GL_LIBRARIES), (picking, of_ros, GL_LIBRARIES), (query, of_ros), (ros, PARSERS),
-            (mesh_adapter, GL_LIBRARIES, PARSERS, other_layers, r'lib(tf2|nodelet)\w*\.so'),
-            (simulator, GL_LIBRARIES, PARSERS, other_layers),
-            (robot_reader, GL_LIBRARIES, r'lib(roscpp|rosconsole|tf2|nodelet|xmlrpc)\.so'),
-            (snapshot, GL_LIBRARIES, r'liborgan_collision_(?!geometry|picking)'),
-        ):
-            linked = subprocess.check_output(['ldd', library], text=True)
-            for pattern in patterns:
-                self.assertNotRegex(linked, pattern, library)
-            if library == robot_reader:
-                self.assertRegex(linked, PARSERS)
+        """GL is loaded, and not linked. The parsers of robots' files are only in robot_reader."""
+        core = ['geometry', 'picking', 'query']
+        for name, *patterns in (
+                [[name, ROS_LIBRARIES, PARSERS] for name in core] +
+                [['node', PARSERS], ['organ_mesh_adapter', PARSERS, 'liborgan_collision_(?!geometry)'],
+                 ['liver_simulator', PARSERS, 'liborgan_collision_(?!geometry)'],
+                 ['robot_reader', ROS_LIBRARIES], ['query_offline', ROS_LIBRARIES]]):
+            linked = subprocess.check_output(['ldd', FILES[name]], text=True)
+            for pattern in [GL_LIBRARIES] + patterns:
+                self.assertNotRegex(re.sub(r' => .*', '', linked), pattern, name)
+        self.assertRegex(subprocess.check_output(['ldd', FILES['robot_reader']], text=True), PARSERS)
 
 
 if __name__ == '__main__':

@@ -39,8 +39,10 @@ class LaunchFilesTest(LaunchCase, NodeStarter):
                   'organ_mesh_adapter': lambda: self.check_mesh_adapter(rospy.get_param('/organ_mesh_adapter/organs'))}
         self.assertEqual({'launch/%s.launch' % name for name in checks}, files('launch', '.launch'))
         for name, check in checks.items():
-            with self.launched('launch/%s.launch' % name):
+            with self.launched('launch/%s.launch' % name) as launched:
                 check()
+            if name == 'demo':
+                self.check_report(launched.printed)
 
     def check_hands(self, name, tools):
         """haptic_proxy knows the tools, and they have no organ."""
@@ -76,6 +78,15 @@ class LaunchFilesTest(LaunchCase, NodeStarter):
         self.assertLess(max(contact.face for contact in cut.contacts), len(mesh.triangles) // 3)
         wait_until(lambda: forces.select(lambda its: its.topology > 0 and its.vertices), 'forces after the cut')
         node.close()
+
+    def check_report(self, printed):
+        """What demo_report.py prints while the demo runs, and at its end."""
+        self.assertRegex(printed, r' [1-9]\d* shapes/s +[1-9]\d* answers/s  stabber \d+ faces .*palpator '
+                                  r'(FREE|TOUCHING), up to \d+\.\d N, [1-9]\d* poses/s\n')
+        self.assertRegex(printed, r'\n        a cut: \d+ faces\n')
+        summary = re.search(r'\nIn \d+ s: (\d+) contacts\. A static test .* missed (\d+) of them', printed)
+        self.assertTrue(0 < int(summary[2]) <= int(summary[1]), summary[0])
+        self.assertRegex(printed, r"\nThe palpator's hand: [1-9]\d* poses, ")
 
     def test_the_rviz_file_names_displays_that_rviz_has(self):
         (path,) = files('config', '.rviz')

@@ -10,6 +10,7 @@ import tempfile
 import threading
 import time
 import unittest
+import unittest.mock
 
 from geometry_msgs.msg import Point, PoseStamped
 import numpy
@@ -142,17 +143,22 @@ class ViewTest(unittest.TestCase):
         spec.loader.exec_module(self.view)
         folder = tempfile.mkdtemp()
         self.path, self.rviz = os.path.join(folder, 'fitted.rviz'), os.path.join(folder, 'rviz')
-        with open(self.rviz, 'w') as text:
-            text.write('#!/bin/sh\nwhile [ -e "$0" ]; do sleep 0.1; done\nexit 7\n')
-        os.chmod(self.rviz, 0o755)
+        self.write_program('rviz', '#!/bin/sh\nwhile [ -e "$0" ]; do sleep 0.1; done\nexit 7\n')
         self.shown, self.loaded = None, 0  # the configuration in RViz, and how many came while it ran
         for name, answer in (('save_config', self.save), ('load_config_discarding_changes', self.load)):
             service = rospy.Service(rospy.get_name() + '_window/' + name, self.view.SendFilePath, answer)
             self.addCleanup(service.shutdown)
-        self.markers = rospy.Publisher('/seen/markers', MarkerArray, queue_size=100)
-        self.organs = self.view.Organs('/seen/markers')
+        self.topic = '/%s/markers' % self._testMethodName
+        self.markers = rospy.Publisher(self.topic, MarkerArray, queue_size=100)
+        self.organs = self.view.Organs(self.topic)
         self.addCleanup(self.organs.subscriber.unregister)
         wait_until(lambda: self.markers.get_num_connections(), 'a subscriber')
+
+    def write_program(self, name, text):
+        path = os.path.join(os.path.dirname(self.path), name)
+        with open(path, 'w') as program:
+            program.write(text)
+        os.chmod(path, 0o755)
 
     def save(self, path):
         with open(path.data, 'w') as text:
@@ -196,7 +202,7 @@ class ViewTest(unittest.TestCase):
         others = [((0.95, 0.4, -0.1), (1.35, 0.6, 0.1)),          # elsewhere and larger
                   ((1.14, 0.495, -0.005), (1.16, 0.505, 0.005))]  # at the same place and smaller
         self.send(*first)
-        view = self.view.View(self.organs, '/seen/markers', '', self.path)
+        view = self.view.View(self.organs, self.topic, '', self.path)
         with open(self.path) as text:
             self.shown = yaml.safe_load(text)
         self.assert_fits(*first)
@@ -215,6 +221,29 @@ class ViewTest(unittest.TestCase):
         os.remove(self.rviz)
         running.join(30)
         self.assertEqual(codes, [7])
+
+    def test_a_picture_is_taken_when_rviz_draws_nothing_new(self):
+        """There are programs in place of Xvfb, which ends with this test, and import, which draws two different pictures."""
+        self.write_program('Xvfb', '#!%s\nimport os, sys, time\nos.write(int(sys.argv[2]), b"77\\n")\ntime.sleep(600)\n'
+                           % sys.executable)
+        self.write_program('import', '#!/bin/sh\necho $DISPLAY >>"$0.calls"\ntail -n 2 "$0.calls" >"$4"\n')
+        self.send((0, 0, 0), (0.1, 0.1, 0.1))
+        self.view.View(self.organs, self.topic, '', self.path, angles=(-90, 30))
+        folder, self.view.STILL, self.view.PICTURES = os.path.dirname(self.path), 0.1, 10
+        picture, calls = (os.path.join(folder, name) for name in ('liver.png', 'import.calls'))
+        with unittest.mock.patch.dict(os.environ, PATH=folder + ':' + os.environ['PATH']):
+            self.view.take_picture(self.rviz, self.path, (640, 400), picture)
+            with open(calls) as made, open(picture) as drawn:
+                self.assertEqual((made.read(), drawn.read()), (3 * ':77\n', 2 * ':77\n'))
+            with open(self.path) as text:
+                self.shown = yaml.safe_load(text)
+            self.assert_fits((0, 0, 0), (0.1, 0.1, 0.1))
+            window, view = self.shown['Window Geometry'], self.shown['Visualization Manager']['Views']['Current']
+            self.assertEqual((window['Width'], window['Height']), (640, 400))
+            numpy.testing.assert_allclose((view['Yaw'], view['Pitch']), numpy.radians((-90, 30)))
+            self.write_program('import', '#!/bin/sh\nexit 1\n')
+            with self.assertRaisesRegex(RuntimeError, 'no picture of RViz: .*import'):
+                self.view.take_picture(self.rviz, self.path, (640, 400), picture)
 
 
 class AllTests(unittest.TestSuite):

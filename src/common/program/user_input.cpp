@@ -10,16 +10,12 @@
 #include <cstring>
 #include <iostream>
 
-#include "geometry/concatenate.hpp"
-
 namespace organ_collision {
 namespace {
 
 namespace po = boost::program_options;
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
-
-constexpr char kFiles[] = "files";  // the name of the words that belong to no option
 
 }  // namespace
 
@@ -47,10 +43,10 @@ void split_words(std::string_view line, std::vector<std::string_view>& words) {
   }
 }
 
-void split_cells(std::string_view line, std::vector<std::string_view>& cells, char separator) {
+void split_cells(std::string_view line, std::vector<std::string_view>& cells) {
   cells.clear();
   for (std::size_t begin = 0;;) {
-    const std::size_t end = line.find(separator, begin);
+    const std::size_t end = line.find(',', begin);
     cells.push_back(trimmed(line.substr(begin, end - begin)));
     if (end == std::string_view::npos) return;
     begin = end + 1;
@@ -84,105 +80,31 @@ std::optional<long long> parse_integer(std::string_view text) {
 
 void print(const std::string& text) {
   std::fwrite(text.data(), 1, text.size(), stdout);
-  flush_stdout();
-}
-
-void flush_stdout() {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
   throw std::runtime_error(std::string("stdout cannot be written: ") + std::strerror(errno));
 }
 
-CommandLine::CommandLine(std::string program, const char* usage)
-    : program_(std::move(program)),
-      usage_(usage),
-      legal_(std::make_shared<po::options_description>()) {}
-
-void CommandLine::flag(const std::string& name, bool& is_given) {
-  legal_->add_options()(name.c_str(), po::bool_switch(&is_given));
-}
-
-void CommandLine::text(const std::string& name, std::string& value) {
-  option(name, "a text", [&value](const std::string& text) {
-    value = text;
-    return !text.empty();
-  });
-}
-
-void CommandLine::texts(const std::string& name, std::vector<std::string>& values) {
-  legal_->add_options()(name.c_str(), po::value(&values));
-}
-
-void CommandLine::option(const std::string& name, const std::string& legal, const Take& take) {
-  const auto notify = [this, name, legal, take](const std::string& text) {
-    if (text.rfind("--", 0) == 0) refuse("option --" + name + " has no value");
-    if (!take(text)) refuse("--" + name + " is " + in_quotes(text) + "; must be " + legal);
-  };
-  legal_->add_options()(name.c_str(), po::value<std::string>()->notifier(notify));
-}
-
-void CommandLine::count(const std::string& name, std::size_t& value, std::size_t most) {
-  option(name, concatenate("a whole number from 1 to ", most), [&value, most](const auto& text) {
-    const long long count = parse_integer(text).value_or(0);
-    if (count < 1 || static_cast<unsigned long long>(count) > most) return false;
-    value = static_cast<std::size_t>(count);
-    return true;
-  });
-}
-
-void CommandLine::number(const std::string& name, double& value, double least, double most) {
-  const std::string legal = concatenate("a number from ", least, " to ", most);
-  option(name, legal, [&value, least, most](const std::string& text) {
-    const std::optional<double> number = parse_number(text);
-    if (!number || !(*number >= least && *number <= most)) return false;
-    value = *number;
-    return true;
-  });
-}
-
-bool CommandLine::read(const std::vector<std::string>& words,
-                       std::vector<std::string>* files) const {
-  const auto asks_for_help = [](const auto& word) { return word == "--help" || word == "-h"; };
-  if (std::any_of(words.begin(), words.end(), asks_for_help)) {
-    print(usage_);
+bool read_command_line(const std::string& program, const char* usage,
+                       const std::vector<std::string>& words,
+                       const po::options_description& options,
+                       const po::positional_options_description& positional) {
+  for (const std::string& word : words) {
+    if (word != "--help" && word != "-h") continue;
+    print(usage);
     return false;
   }
-
-  po::options_description all;
-  all.add(*legal_).add_options()(kFiles, po::value<std::vector<std::string>>());
-  po::positional_options_description positional;
-  positional.add(kFiles, -1);
   using po::command_line_style::unix_style;
-  const int style = unix_style & ~po::command_line_style::allow_guessing;
-  po::variables_map values;
+  po::command_line_parser parser(words);
+  parser.options(options).positional(positional);
+  parser.style(unix_style & ~po::command_line_style::allow_guessing);
   try {
-    po::store(po::command_line_parser(words).options(all).positional(positional).style(style).run(),
-              values);
+    po::variables_map values;
+    po::store(parser.run(), values);
     po::notify(values);
-  } catch (const po::unknown_option& error) {
-    std::string legal;
-    for (const auto& option : legal_->options()) {
-      legal += (legal.empty() ? "--" : ", --") + option->long_name();
-    }
-    refuse("unknown option " + in_quotes(error.get_option_name()) + "; legal are " + legal +
-           " and --help");
-  } catch (const po::error& error) {
-    refuse(error.what());
-  } catch (const std::invalid_argument& error) {
-    refuse(error.what());
+  } catch (const std::logic_error& error) {  // po::error is one, too
+    throw InputError(program + ": " + error.what() + " (--help explains)");
   }
-  if (values.count(kFiles) == 0) return true;
-  const auto& given = values[kFiles].as<std::vector<std::string>>();
-  if (!files) refuse("unknown argument " + in_quotes(given.front()));
-  *files = given;
   return true;
-}
-
-void CommandLine::refuse(const std::string& message) const {
-  throw InputError(program_ + ": " + message + " (--help explains)");
-}
-
-void CommandLine::require(const std::string& name, const std::string& value) const {
-  if (value.empty()) refuse("option --" + name + " is missing");
 }
 
 int exit_code(const std::string& program, const std::function<void()>& work) {

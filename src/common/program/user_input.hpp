@@ -1,18 +1,15 @@
 #pragma once
 
+#include <boost/program_options/options_description.hpp>
+#include <boost/program_options/positional_options.hpp>
 #include <chrono>
 #include <cstddef>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
-
-namespace boost::program_options {
-class options_description;
-}
 
 namespace organ_collision {
 
@@ -39,7 +36,7 @@ void split_words(std::string_view line, std::vector<std::string_view>& words);
 
 /// Replaces `cells` by those of a CSV line, each trimmed. An empty line has one cell. Quotes have
 /// no special meaning.
-void split_cells(std::string_view line, std::vector<std::string_view>& cells, char separator = ',');
+void split_cells(std::string_view line, std::vector<std::string_view>& cells);
 
 /// The number that the whole `text` stands for, possibly infinite or NaN. None if it is not a
 /// number.
@@ -48,52 +45,18 @@ std::optional<double> parse_number(std::string_view text);
 /// The integer that the whole `text` stands for. None if it is not an integer of 64 bits.
 std::optional<long long> parse_integer(std::string_view text);
 
-/// The options of a program. A user gives an option as `--name value` or `--name=value`, and a flag
-/// as `--name`. Each program has --help. The functions take names without dashes.
-class CommandLine {
- public:
-  /// Takes the text of an option. Returns false if it is illegal, or throws std::invalid_argument,
-  /// whose message says what is legal.
-  using Take = std::function<bool(const std::string& text)>;
-
-  /// `program`: the name that begins each refusal. `usage`: what --help prints.
-  CommandLine(std::string program, const char* usage);
-
-  // These add an option of the program. If the user does not give it, its variable stays as it is.
-  void flag(const std::string& name, bool& is_given);
-  /// A text that is not empty.
-  void text(const std::string& name, std::string& value);
-  /// An option that may be given several times.
-  void texts(const std::string& name, std::vector<std::string>& values);
-  /// `legal`: which texts are legal, for example "a number above 0".
-  void option(const std::string& name, const std::string& legal, const Take& take);
-  /// A whole number from 1 to `most`.
-  void count(const std::string& name, std::size_t& value, std::size_t most);
-  /// A finite number from `least` to `most`.
-  void number(const std::string& name, double& value, double least, double most);
-
-  /// Reads the words behind the program's name. The words that belong to no option go to `files`.
-  /// If `files` is null, they are refused. If --help or -h is among the words, prints the usage and
-  /// returns false, without reading another word. Throws InputError for options that are unknown,
-  /// repeated, without value or illegal.
-  bool read(const std::vector<std::string>& words, std::vector<std::string>* files = nullptr) const;
-
-  /// Throws InputError with this message.
-  [[noreturn]] void refuse(const std::string& message) const;
-  /// Throws InputError if the text of an option that must be given is empty.
-  void require(const std::string& name, const std::string& value) const;
-
- private:
-  std::string program_;
-  const char* usage_;
-  std::shared_ptr<boost::program_options::options_description> legal_;
-};
+/// Reads the command line of a program: `options` by their names, and the words that belong to no
+/// option as `positional`. If --help or -h is among the words, prints `usage` and returns false,
+/// without reading another word. Throws InputError, which begins with the name of the program: for
+/// what Boost.Program_options refuses, and for a std::invalid_argument of a notifier of `options`.
+bool read_command_line(
+    const std::string& program, const char* usage, const std::vector<std::string>& words,
+    const boost::program_options::options_description& options,
+    const boost::program_options::positional_options_description& positional = {});
 
 /// Writes to stdout at once, so that a reader who waits for an answer gets it. Throws
 /// std::runtime_error if stdout cannot be written, for example because the disk is full.
 void print(const std::string& text);
-/// Throws the same if anything that was written to stdout so far is lost.
-void flush_stdout();
 
 /// The exit code of a program that does this work: 0, or 2 after an InputError, or 1 after any
 /// other exception. Prints what the exception says in one line on stderr.

@@ -97,9 +97,7 @@ std::vector<EGLDisplay> software_displays() {
 class EglContext final : public PlatformContext {
  public:
   /// `display` must be initialized. Throws GlError.
-  EglContext(EGLDisplay display, const GlFramebuffer& framebuffer) : EglContext(display) {
-    create(framebuffer);
-  }
+  explicit EglContext(EGLDisplay display) : EglContext(display, EGL_NO_SURFACE) { create(); }
   ~EglContext() override {
     if (context_ == EGL_NO_CONTEXT) return;
     if (is_current()) release();
@@ -123,9 +121,9 @@ class EglContext final : public PlatformContext {
  private:
   /// The public constructor delegates to this one. The destructor therefore runs if create()
   /// throws.
-  explicit EglContext(EGLDisplay display) : display_(display) {}
+  EglContext(EGLDisplay display, EGLSurface surface) : display_(display), surface_(surface) {}
 
-  void create(const GlFramebuffer& framebuffer) {
+  void create() {
     if (egl().BindAPI(EGL_OPENGL_API) != EGL_TRUE) throw egl_error("EGL has no OpenGL");
     const std::array<std::array<EGLint, 2>, 8> wanted = {{{EGL_SURFACE_TYPE, EGL_PBUFFER_BIT},
                                                           {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT},
@@ -133,7 +131,7 @@ class EglContext final : public PlatformContext {
                                                           {EGL_GREEN_SIZE, 8},
                                                           {EGL_BLUE_SIZE, 8},
                                                           {EGL_ALPHA_SIZE, 8},
-                                                          {EGL_DEPTH_SIZE, framebuffer.depth_bits},
+                                                          {EGL_DEPTH_SIZE, 0},
                                                           {EGL_NONE, 0}}};
     EGLConfig config = nullptr;
     EGLint count = 0;
@@ -143,7 +141,7 @@ class EglContext final : public PlatformContext {
     }
     context_ = egl().CreateContext(display_, config, EGL_NO_CONTEXT, nullptr);
     if (context_ == EGL_NO_CONTEXT) throw egl_error("EGL gives no compatibility context");
-    const EGLint size[] = {EGL_WIDTH, framebuffer.width, EGL_HEIGHT, framebuffer.height, EGL_NONE};
+    const EGLint size[] = {EGL_WIDTH, kFramebufferSide, EGL_HEIGHT, kFramebufferSide, EGL_NONE};
     surface_ = egl().CreatePbufferSurface(display_, config, size);
     if (surface_ == EGL_NO_SURFACE) throw egl_error("EGL gives no framebuffer in memory");
     if (!make_current()) throw egl_error("EGL cannot make its context current");
@@ -163,12 +161,12 @@ class EglContext final : public PlatformContext {
 
   EGLDisplay display_;
   EGLContext context_ = EGL_NO_CONTEXT;
-  EGLSurface surface_ = EGL_NO_SURFACE;
+  EGLSurface surface_;
 };
 
 }  // namespace
 
-std::unique_ptr<PlatformContext> new_egl_context(const GlFramebuffer& framebuffer) {
+std::unique_ptr<PlatformContext> new_egl_context() {
   std::string reason = "EGL knows neither devices without hardware nor a platform without surfaces";
   for (EGLDisplay display : software_displays()) {
     // A display stays initialized until the process ends, because other code may use it, too.
@@ -177,7 +175,7 @@ std::unique_ptr<PlatformContext> new_egl_context(const GlFramebuffer& framebuffe
       continue;
     }
     try {
-      return std::make_unique<EglContext>(display, framebuffer);
+      return std::make_unique<EglContext>(display);
     } catch (const GlError& error) {
       reason = error.what();
     }

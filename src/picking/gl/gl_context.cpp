@@ -57,13 +57,10 @@ GlFunctions load_functions(const PlatformContext& context) {
 struct GlContext::Source {
   GlPlatform platform;
   const char* name;
-  std::unique_ptr<PlatformContext> (*create)(const GlFramebuffer&);
+  std::unique_ptr<PlatformContext> (*create)();
 };
 
-GlContext::GlContext(GlPlatform platform, const GlFramebuffer& framebuffer)
-    : platform_(platform), framebuffer_(framebuffer) {
-  make();
-}
+GlContext::GlContext(GlPlatform platform) : platform_(platform) { make(); }
 
 /// Makes a context of the first platform that gives a context which works.
 void GlContext::make() {
@@ -88,7 +85,7 @@ void GlContext::make() {
 /// Makes a context of a platform and leaves it current. If it does not work, throws GlError and
 /// changes nothing in this object.
 void GlContext::make(const Source& source) {
-  std::unique_ptr<PlatformContext> context = source.create(framebuffer_);
+  std::unique_ptr<PlatformContext> context = source.create();
   if (!make_latest(*context)) throw GlError("the new context cannot be made current");
   const GlFunctions gl = load_functions(*context);
   const GLubyte* const version = gl.GetString(GL_VERSION);

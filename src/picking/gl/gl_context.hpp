@@ -9,14 +9,12 @@
 #include "organ_collision/picking/gl_platform.hpp"
 #include "platform_context.hpp"
 
-// All GL functions that picking and snapshot call, without the prefix gl.
+// All GL functions that picking calls, without the prefix gl.
 // clang-format off
 #define ORGAN_COLLISION_GL_FUNCTIONS(F)                                                       \
-  F(BlendFunc) F(Clear) F(ClearColor) F(ClipPlane) F(ColorPointer) F(DepthMask) F(DepthRange) \
-  F(DisableClientState) F(DrawArrays) F(Enable) F(EnableClientState) F(FeedbackBuffer)        \
+  F(ClipPlane) F(DepthRange) F(DrawArrays) F(Enable) F(EnableClientState) F(FeedbackBuffer)   \
   F(GetError) F(GetString) F(InitNames) F(LoadIdentity) F(LoadMatrixd) F(LoadName)            \
-  F(PassThrough) F(PushName) F(ReadPixels) F(RenderMode) F(SelectBuffer) F(TexCoordPointer)   \
-  F(VertexPointer)
+  F(PassThrough) F(PushName) F(RenderMode) F(SelectBuffer) F(TexCoordPointer) F(VertexPointer)
 // clang-format on
 
 namespace organ_collision {
@@ -39,8 +37,7 @@ struct GlFunctions {
 class GlContext {
  public:
   /// Throws GlError, with the reason of each platform, if no platform gives a context that works.
-  explicit GlContext(GlPlatform platform = GlPlatform::kAuto,
-                     const GlFramebuffer& framebuffer = {});
+  explicit GlContext(GlPlatform platform = GlPlatform::kAuto);
 
   /// Makes this context current in the calling thread; this is cheap if it is current already. If
   /// the context has failed before, a new one replaces it. Throws GlError.
@@ -66,7 +63,6 @@ class GlContext {
   void make(const Source& source);
 
   GlPlatform platform_;
-  GlFramebuffer framebuffer_;
   std::unique_ptr<PlatformContext> context_;
   GlFunctions functions_;
   std::string version_;

@@ -1,8 +1,8 @@
 #include <GL/gl.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "organ_collision/picking/gl_error.hpp"
 #include "platform_context.hpp"
@@ -40,12 +40,7 @@ const OsmesaFunctions& osmesa() {
 
 class OsmesaContext final : public PlatformContext {
  public:
-  explicit OsmesaContext(const GlFramebuffer& framebuffer)
-      : context_(osmesa().create_context(GL_RGBA /* OSMESA_RGBA */, framebuffer.depth_bits, 0, 0,
-                                         nullptr)),
-        width_(framebuffer.width),
-        height_(framebuffer.height),
-        pixels_(std::size_t{4} * width_ * height_) {
+  OsmesaContext() : context_(osmesa().create_context(GL_RGBA /* OSMESA_RGBA */, 0, 0, 0, nullptr)) {
     if (context_ == nullptr) throw GlError("OSMesa gives no compatibility context");
   }
   ~OsmesaContext() override {
@@ -57,8 +52,8 @@ class OsmesaContext final : public PlatformContext {
 
   bool is_current() const override { return osmesa().current_context() == context_; }
   bool make_current() override {
-    return osmesa().make_current(context_, pixels_.data(), GL_UNSIGNED_BYTE, width_, height_) ==
-           GL_TRUE;
+    return osmesa().make_current(context_, pixels_.data(), GL_UNSIGNED_BYTE, kFramebufferSide,
+                                 kFramebufferSide) == GL_TRUE;
   }
   void release() override { osmesa().make_current(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
   AnyFunction find_function(const char* name) const override {
@@ -67,14 +62,11 @@ class OsmesaContext final : public PlatformContext {
 
  private:
   OsmesaFunctions::Context context_;
-  int width_, height_;
-  std::vector<std::uint8_t> pixels_;
+  std::array<std::uint8_t, std::size_t{4} * kFramebufferSide * kFramebufferSide> pixels_{};
 };
 
 }  // namespace
 
-std::unique_ptr<PlatformContext> new_osmesa_context(const GlFramebuffer& framebuffer) {
-  return std::make_unique<OsmesaContext>(framebuffer);
-}
+std::unique_ptr<PlatformContext> new_osmesa_context() { return std::make_unique<OsmesaContext>(); }
 
 }  // namespace organ_collision

@@ -10,14 +10,11 @@
 
 namespace organ_collision {
 
-/// The framebuffer of a context. Picking draws no pixels, but GL requires a framebuffer.
-struct GlFramebuffer {
-  int width = 4, height = 4;  ///< [pixel] size
-  int depth_bits = 0;         ///< 0: without depth buffer
-};
+/// [pixel] Width and height of the framebuffer of a context, which has four bytes a pixel and no
+/// depth. Picking draws no pixels, but GL requires a framebuffer.
+inline constexpr int kFramebufferSide = 4;
 
-/// An OpenGL context (compatibility profile) of one platform, and its framebuffer: rows from bottom
-/// to top, with four bytes (red, green, blue, alpha) for each pixel.
+/// An OpenGL context (compatibility profile) of one platform.
 class PlatformContext {
  public:
   using AnyFunction = void (*)();
@@ -34,8 +31,8 @@ class PlatformContext {
 };
 
 // Both functions throw GlError if the platform gives no context.
-std::unique_ptr<PlatformContext> new_osmesa_context(const GlFramebuffer& framebuffer);
-std::unique_ptr<PlatformContext> new_egl_context(const GlFramebuffer& framebuffer);
+std::unique_ptr<PlatformContext> new_osmesa_context();
+std::unique_ptr<PlatformContext> new_egl_context();
 
 /// A shared library that is loaded when it is first needed, so that the package builds and runs
 /// without it. It stays loaded until the process ends: Mesa does not survive being unloaded.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <boost/program_options/value_semantic.hpp>
 #include <cmath>
 #include <csignal>
 #include <exception>
@@ -99,6 +100,8 @@ With --motions - and with --shapes, the motions before a bad line, or before a b
 first.
 )";
 
+constexpr int kMostJobs = 1024;
+
 struct Options {
   std::string mesh;         ///< an OBJ file; empty: the folder `shapes` is used
   std::string mesh_before;  ///< an OBJ file; empty: the organ rests
@@ -112,35 +115,44 @@ std::optional<Options> parse_options(const std::vector<std::string>& arguments) 
   Options options;
   Questions& questions = options.questions;
   questions.jobs = thread_count(0);
-  CommandLine line("query_offline", kUsage);
-  line.text("mesh", options.mesh);
-  line.text("motions", options.motions);
-  line.text("mesh-before", options.mesh_before);
-  line.text("shapes", options.shapes);
-  line.count("jobs", questions.jobs, 1024);
-  line.option("picker", "the name of a picker", [&](const std::string& name) {
-    questions.picker.kind = picker_kind(name);
-    return true;
-  });
-  line.option("gl", "the name of a platform", [&](const std::string& name) {
-    questions.picker.gl = gl_platform(name);
-    return true;
-  });
-  line.option("margin", "a finite number above 0, in metres", [&](const std::string& text) {
-    questions.margin = parse_number(text).value_or(0.0);
-    return std::isfinite(questions.margin) && questions.margin > 0.0;
-  });
-  line.flag("clearance", questions.clearance);
-  line.flag("placement", questions.placement);
-  line.flag("blank-lines", questions.blank_lines);
-  if (!line.read(arguments)) return std::nullopt;
+  const auto jobs = [&](int count) {
+    if (count < 1 || count > kMostJobs) {
+      throw std::invalid_argument(
+          concatenate("--jobs is ", count, "; must be from 1 to ", kMostJobs));
+    }
+    questions.jobs = static_cast<std::size_t>(count);
+  };
+  const auto margin = [&](double metres) {
+    if (!std::isfinite(metres) || !(metres > 0.0)) {
+      throw std::invalid_argument(
+          concatenate("--margin is ", metres, "; must be a finite number above 0, in metres"));
+    }
+    questions.margin = metres;
+  };
+  const auto picker = [&](const std::string& name) { questions.picker.kind = picker_kind(name); };
+  const auto gl = [&](const std::string& name) { questions.picker.gl = gl_platform(name); };
+  namespace po = boost::program_options;
+  po::options_description legal;
+  auto add = legal.add_options();
+  add("mesh", po::value(&options.mesh));
+  add("mesh-before", po::value(&options.mesh_before));
+  add("shapes", po::value(&options.shapes));
+  add("motions", po::value(&options.motions)->required());
+  add("jobs", po::value<int>()->notifier(jobs));
+  add("picker", po::value<std::string>()->notifier(picker));
+  add("gl", po::value<std::string>()->notifier(gl));
+  add("margin", po::value<double>()->notifier(margin));
+  add("clearance", po::bool_switch(&questions.clearance));
+  add("placement", po::bool_switch(&questions.placement));
+  add("blank-lines", po::bool_switch(&questions.blank_lines));
+  if (!read_command_line("query_offline", kUsage, arguments, legal)) return std::nullopt;
 
-  if (options.shapes.empty()) line.require("mesh", options.mesh);
-  if (!options.shapes.empty() && !(options.mesh + options.mesh_before).empty()) {
-    line.refuse(
-        "options --shapes and --mesh or --mesh-before are given; the folder has all shapes");
+  const bool has_mesh = !(options.mesh + options.mesh_before).empty();
+  if (options.mesh.empty() == options.shapes.empty() || (has_mesh && !options.shapes.empty())) {
+    throw InputError(
+        "query_offline: give either --mesh, and perhaps --mesh-before, or --shapes, which has all "
+        "shapes (--help explains)");
   }
-  line.require("motions", options.motions);
   return options;
 }
 

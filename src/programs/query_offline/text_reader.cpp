@@ -30,26 +30,17 @@ TextReader::~TextReader() {
 
 bool TextReader::next() {
   find_line(true);
-  if (begin_ == buffer_.size()) return false;
+  if (line_.empty()) return false;
   ends_within_line_ = end_ == buffer_.size();
   go_behind_line();
   return true;
 }
 
-/// Makes the next line that is not blank the current one. At the end of the file, there is none.
+/// Makes the next line that is not blank the current one. At the end of the file, it is empty.
 /// Returns false if more must be read first, and `waits` is false.
 bool TextReader::find_line(bool waits) {
   while (true) {
-    if (is_behind_return_ && begin_ < buffer_.size()) {
-      begin_ += buffer_[begin_] == '\n';
-      is_behind_return_ = false;
-    }
-    end_ = std::min(buffer_.find_first_of("\r\n", begin_), buffer_.size());
-    if (end_ - begin_ > kLongestLine) {
-      throw InputError(file_, number_ + 1,
-                       "the line has more than " + std::to_string(kLongestLine) +
-                           " bytes; must be shorter, with a line feed at its end");
-    }
+    end_ = std::min(buffer_.find('\n', begin_), buffer_.size());
     if (end_ == buffer_.size() && !at_end_) {
       if (!waits && !has_input(0)) return false;
       read_piece();
@@ -66,7 +57,6 @@ bool TextReader::find_line(bool waits) {
 
 void TextReader::go_behind_line() {
   ++number_;
-  is_behind_return_ = end_ < buffer_.size() && buffer_[end_] == '\r';
   begin_ = std::min(end_ + 1, buffer_.size());
 }
 

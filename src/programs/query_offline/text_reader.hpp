@@ -12,13 +12,11 @@ namespace organ_collision {
 /// Chooses standard input instead of a file.
 struct StandardInput {};
 
-/// Reads the lines of a text file, or of standard input. Line ends may be those of Unix, Windows or
-/// old spreadsheets (a carriage return); the last line may have none. Blank lines are left out.
-/// Standard input may be a pipe, also one that does not block.
+/// Reads the lines of a text file, or of standard input. Line ends may be those of Unix or Windows;
+/// the last line may have none. Blank lines are left out. Standard input may be a pipe, also one
+/// that does not block. (std::getline cannot tell whether a whole line has arrived.)
 class TextReader {
  public:
-  static constexpr std::size_t kLongestLine = 1 << 20;  ///< [bytes] without its line feed
-
   /// Throws InputError when the file cannot be opened.
   explicit TextReader(std::string file);
   explicit TextReader(StandardInput);
@@ -27,7 +25,7 @@ class TextReader {
   TextReader& operator=(const TextReader&) = delete;
 
   /// Goes to the next line that is not blank, and waits for it. Returns false after the last one.
-  /// Throws InputError when reading fails, or if the line is longer than kLongestLine.
+  /// Throws InputError when reading fails.
   bool next();
   /// Whether next() returns without waiting: a whole line, or the end of the input, has arrived.
   /// Throws what next() throws.
@@ -56,11 +54,10 @@ class TextReader {
 
   std::string file_;
   int descriptor_;
-  std::string buffer_;             ///< what was read; the next read erases the lines before begin_
-  std::size_t begin_ = 0;          ///< where the first line begins that is not yet taken
-  std::size_t end_ = 0;            ///< where it ends
-  bool at_end_ = false;            ///< whether the input is read to its end
-  bool is_behind_return_ = false;  ///< the line before begin_ ended with a carriage return
+  std::string buffer_;     ///< what was read; the next read erases the lines before begin_
+  std::size_t begin_ = 0;  ///< where the first line begins that is not yet taken
+  std::size_t end_ = 0;    ///< where it ends
+  bool at_end_ = false;    ///< whether the input is read to its end
   std::string_view line_;
   std::size_t number_ = 0;
   bool ends_within_line_ = false;

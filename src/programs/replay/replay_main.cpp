@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <boost/program_options/value_semantic.hpp>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -68,24 +69,24 @@ struct ReplayOptions {
 /// Returns none if --help is asked for.
 std::optional<ReplayOptions> parse_options(const std::vector<std::string>& arguments) {
   ReplayOptions options;
-  CommandLine line("replay", kUsage);
-  line.text("parameters", options.parameters);
-  line.option("node", "the name of a node", [&](const std::string& node) {
+  const auto node = [&](const std::string& name) {
     std::string error;
-    if (!ros::names::validate(node, error) || node.find('~') != std::string::npos) return false;
-    options.node = ros::names::resolve("/", node, false);
-    return true;
-  });
-  line.flag("with-input", options.with_input);
-  std::vector<std::string> files;
-  if (!line.read(arguments, &files)) return std::nullopt;
-  if (files.size() != 2) {
-    line.refuse("needs two files, IN.bag and OUT.bag; " + std::to_string(files.size()) +
-                " are given");
-  }
-  line.require("parameters", options.parameters);
-  options.in = files[0];
-  options.out = files[1];
+    if (!ros::names::validate(name, error) || name.find('~') != std::string::npos) {
+      throw std::invalid_argument("--node is " + in_quotes(name) + "; must be the name of a node");
+    }
+    options.node = ros::names::resolve("/", name, false);
+  };
+  namespace po = boost::program_options;
+  po::options_description legal;
+  auto add = legal.add_options();
+  add("IN.bag", po::value(&options.in)->required());
+  add("OUT.bag", po::value(&options.out)->required());
+  add("parameters", po::value(&options.parameters)->required());
+  add("node", po::value<std::string>()->notifier(node));
+  add("with-input", po::bool_switch(&options.with_input));
+  po::positional_options_description files;
+  files.add("IN.bag", 1).add("OUT.bag", 1);
+  if (!read_command_line("replay", kUsage, arguments, legal, files)) return std::nullopt;
   return options;
 }
 
