@@ -73,12 +73,9 @@ class ContactAdapter {
   /// Throws ParameterError.
   ContactAdapter(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
       : private_node_(private_node),
-        parameters_(load_parameters<ContactAdapterParameters>(private_node)),
-        live_parameters_(private_node, live_parameters(parameters_),
-                         [this](const XmlRpc::XmlRpcValue& changes) {
-                           parameters_ = changed(parameters_, changes);
-                           return live_parameters(parameters_);
-                         }),
+        table_(load_parameters(parameters_, private_node)),
+        live_parameters_(private_node, table_,
+                         [this](const XmlRpc::XmlRpcValue& changes) { table_.change(changes); }),
         diagnostics_(node, private_node, parameters_.diagnostic_period_sec) {
     for (const std::string& sentence : parameters_.misspelt) ROS_WARN("%s", sentence.c_str());
     live_parameters_.advertise();
@@ -218,6 +215,7 @@ class ContactAdapter {
 
   ros::NodeHandle private_node_;
   ContactAdapterParameters parameters_;
+  ParameterTable table_;
   LiveParameters live_parameters_;
   PairNames names_;
   std::map<std::pair<std::string, std::string>, Pair> pairs_;  ///< by organ and tool

@@ -3,7 +3,6 @@
 #include <ros/node_handle.h>
 
 #include <chrono>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,19 +26,24 @@ namespace organ_collision {
 /// force fades or rises, the node makes more ticks with the last pose. One thread does all this
 /// (node_core.hpp) and owns the GL contexts. The background thread inspects surfaces, and loads new
 /// tools and parameters.
-class HapticProxyNode {
+class HapticProxyNode final : public OrganNode {
  public:
-  /// Throws ParameterError and GlError. The same thread must call run().
-  HapticProxyNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
-  ~HapticProxyNode() { core_.end(); }
+  /// Throws GlError.
+  HapticProxyNode(NodeCore& core, const HapticProxyParameters& parameters);
 
-  /// Works until ROS shuts down or `stop` returns true. Throws an exception that the node cannot
-  /// recover from, such as std::bad_alloc. Before it returns or throws, forces fade and NO_ANSWER
-  /// is published for each tool that has a proxy, if ROS still works.
-  void run(const std::function<bool()>& stop = [] { return false; });
+  void start() override;
+  void watch_clock() override;
+  void handle(SteadyTime now) override;
+  void work() override;
+  std::optional<SteadyTime> next_deadline() override;
+  void reset() override;
+  void parameters_changed() override;
+  void release_tools(const KeptTools& kept) override;
+  void prepare_tools(const std::vector<ToolParameters>& tools) override;
+  void tools_changed(const KeptTools& kept) override;
+  void end(const std::exception* fault) override;
 
  private:
-  using Core = NodeCore<HapticProxyParameters>;
   using Time = ToolProxy::Time;
 
   /// A tool's proxy, and what the node knows of its hand.
@@ -57,13 +61,11 @@ class HapticProxyNode {
     Time told = {};                         ///< when something about the hand was last published
   };
 
-  Core::Callbacks callbacks();
-  void let_go(const std::string& why);
   void follow_waiting_hands();
   void follow_hands();
   void follow_hand(std::size_t tool, Time now);
   AgeLimits age_limits() const {
-    return {core_.parameters().mesh_timeout_sec, core_.parameters().frame_timeout_sec};
+    return {parameters_.mesh_timeout_sec, parameters_.frame_timeout_sec};
   }
   Timed<ToolPose> latest_pose(std::size_t tool) const;
   ProxyScene scene_at(Time now);
@@ -71,16 +73,14 @@ class HapticProxyNode {
   void tick(Hand& hand, const Timed<ToolPose>& pose, const ProxyScene& scene, Time now);
   std::vector<ProxyView> views() const;
   void lose(std::size_t tool, const Rejection& why, Time now);
-  std::optional<SteadyTime> next_deadline();
   std::vector<Hand> make_hands(std::vector<Tool>& tools, const KeptTools& kept);
   void reset_proxies(const std::string& why);
   void change_frame(const std::string& before);
-  void let_leaving_hands_fade(const KeptTools& kept);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
+  NodeCore& core_;
+  const HapticProxyParameters& parameters_;
   ProxyCounters counters_;
-  Core core_;
-
   Inbox inbox_;
   ToolPoses poses_;
   OrganInterpolation shapes_;
