@@ -1,12 +1,13 @@
 """Answers of the collision node as numpy arrays."""
 
+import re
+
 import numpy as np
 
 from organ_collision.msg import ContactArray
 
-_STATUSES = ('OK', 'NO_MESH', 'NO_TRANSFORM', 'STALE_MESH', 'INVALID_REQUEST', 'UNKNOWN_ORGAN', 'UNKNOWN_TOOL',
-             'PICKER_FAILED', 'INVALID_TOOL')
-_NAMES = {getattr(ContactArray, name): name for name in _STATUSES}
+# The names of the statuses, by number: in the text of the message, they stand above the modes.
+_NAMES = dict(enumerate(re.findall(r'^uint8 (\w+)=', ContactArray._full_text.split('# Modes')[0], re.MULTILINE)))
 
 _PLACE = [('face', np.uint32), ('vertices', np.uint32, 3), ('barycentric', float, 3)]
 # The fields of Contact.msg, Crossing.msg and Clearance.msg, in their order.

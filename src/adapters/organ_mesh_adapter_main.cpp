@@ -68,7 +68,7 @@ class OrganMeshAdapter {
   /// Throws ParameterError.
   OrganMeshAdapter(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
       : node_(node),
-        parameters_(load_parameters<MeshAdapterParameters>(private_node)),
+        parameters_(parse_parameters<MeshAdapterParameters>(all_parameters(private_node))),
         diagnostics_(node, private_node, parameters_.diagnostic_period_sec) {
     for (const std::string& sentence : parameters_.misspelt) ROS_WARN("%s", sentence.c_str());
 

@@ -7,22 +7,22 @@
 #include <tf2_msgs/TFMessage.h>
 #include <visualization_msgs/MarkerArray.h>
 
-#include <atomic>
 #include <csignal>
 
-#include "haptic_proxy_node.hpp"
+#include "haptic_proxy.hpp"
 #include "haptic_proxy_parameters.hpp"
+#include "node/node_core.hpp"
 #include "organ_collision/ros/names.hpp"
 
 namespace organ_collision {
 namespace {
 
-std::atomic<bool> is_to_stop{false};
+RunControl control;
 
 /// Replaces the handler of ROS, which would end the topics before the forces have faded. A second
 /// signal ends the program at once.
 void on_signal(int signal) {
-  is_to_stop = true;
+  control.stop = true;
   std::signal(signal, SIG_DFL);
 }
 
@@ -79,9 +79,8 @@ int main(int argc, char** argv) {
       argc, argv, haptic_proxy_help(), names::kHapticProxy,
       [](const ros::NodeHandle& node, const ros::NodeHandle& private_node) {
         for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, on_signal);
-        make_ros_realtime(node,
-                          load_parameters<HapticProxyParameters>(private_node).realtime.priority);
-        HapticProxyNode(node, private_node).run([] { return is_to_stop.load(); });
+        make_ros_realtime(node, private_node);
+        run_haptic_proxy(node, private_node, control);
       },
       ros::init_options::NoSigintHandler);
 }

@@ -10,6 +10,7 @@
 #include "common/messages/text.hpp"
 #include "common/threads/queues.hpp"
 #include "geometry/concatenate.hpp"
+#include "haptic_proxy.hpp"
 #include "organ_collision/picking/gl_error.hpp"
 #include "organ_collision/ros/names.hpp"
 
@@ -42,93 +43,85 @@ SteadyClock::duration duration(double seconds) {
 
 }  // namespace
 
-HapticProxyNode::HapticProxyNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
-    : core_(node, private_node, callbacks()),
+HapticProxyNode::HapticProxyNode(NodeCore& core, const HapticProxyParameters& parameters)
+    : core_(core),
+      parameters_(parameters),
       inbox_(
-          core_.parameters(), counters_.rejected,
+          parameters, counters_.rejected,
           [this](std::size_t tool) {
             if (std::exchange(hands_[tool].is_waiting, true)) ++counters_.poses_merged;
           },
-          core_.organ_threads()),
+          core.organ_threads()),
       poses_(inbox_.transforms, kNoPaths),
-      frame_(core_.parameters().frame),
-      hands_(make_hands(core_.tools(), KeptTools(core_.tools().size()))),
+      frame_(parameters.frame),
+      hands_(make_hands(core.tools(), KeptTools(core.tools().size()))),
       started_(SteadyClock::now()),
-      publisher_(core_.private_node(), counters_.failed, core_.parameters().publish_tf),
-      markers_(core_.private_node(), core_.parameters().markers) {
-  try {
-    publisher_.set_tools(core_.parameters().tools);
-    inbox_.subscribe(core_.node(), core_.private_node());
-    core_.updater().add("proxies", this, &HapticProxyNode::diagnose);
-    add_diagnostics(core_.updater(),
-                    ReceivedParts{core_.parameters().mesh_timeout_sec, core_.tools(), inbox_.organs,
-                                  inbox_.intake, counters_.meshes, counters_.rejected});
-    core_.start();
-    ROS_INFO("ready: %s with a proxy, %g N/m", counted(core_.tools().size(), "tool").c_str(),
-             core_.parameters().stiffness);
-  } catch (...) {
-    core_.end();
-    throw;
+      publisher_(core.private_node(), counters_.failed, parameters.publish_tf),
+      markers_(core.private_node(), parameters.markers) {
+  publisher_.set_tools(parameters.tools);
+}
+
+void HapticProxyNode::start() {
+  core_.updater().add("proxies", this, &HapticProxyNode::diagnose);
+  add_diagnostics(core_.updater(),
+                  ReceivedParts{parameters_.mesh_timeout_sec, core_.tools(), inbox_.organs,
+                                inbox_.intake, counters_.meshes, counters_.rejected});
+  inbox_.subscribe(core_.node(), core_.private_node());
+  ROS_INFO("ready: %s with a proxy, %g N/m", counted(core_.tools().size(), "tool").c_str(),
+           parameters_.stiffness);
+}
+
+void HapticProxyNode::watch_clock() {
+  if (!inbox_.watch_clock()) return;
+  reset_proxies("the clock jumped back");
+  for (Hand& hand : hands_) {
+    hand.stamp = {};
+    hand.shapes.clear();
   }
 }
 
-NodeCore<HapticProxyParameters>::Callbacks HapticProxyNode::callbacks() {
-  Core::Callbacks callbacks;
-  callbacks.loop.watch_clock = [this] {
-    if (!inbox_.watch_clock()) return;
-    reset_proxies("the clock jumped back");
-    for (Hand& hand : hands_) {
-      hand.stamp = {};
-      hand.shapes.clear();
-    }
-  };
-  callbacks.loop.handle = [this](SteadyTime) {
-    while (const auto update = inbox_.intake.next()) {
-      has_new_shape_ = true;
-      if (update->status == ContactArray::OK) counters_.meshes.count();
-      if (update->change) await_shape(*update);
-      if (core_.parameters().organ_interpolation) {
-        shapes_.update(inbox_.organs, SteadyClock::now());
-      }
-    }
-    follow_waiting_hands();
-  };
-  callbacks.work = [this] {
-    follow_hands();
-    markers_.update(inbox_.organs, [this] { return views(); });
-  };
-  callbacks.next_deadline = [this] { return next_deadline(); };
-  callbacks.reset = [this] {
-    inbox_.forget_history();
-    reset_proxies("reset was called");
-  };
-  callbacks.parameters_changed = [this](const auto&) {
-    for (Hand& hand : hands_) {
-      if (hand.proxy) hand.proxy->update_settings();
-    }
-    markers_.set_settings(core_.parameters().markers);
-  };
-  callbacks.release_tools = [this](const auto& kept) { let_leaving_hands_fade(kept); };
-  callbacks.prepare_tools = [this](const auto& tools) {
-    for (Hand& hand : hands_) hand.is_leaving = false;  // If the exchange fails, the hands stay.
-    inbox_.motion.change_tools(tools, core_.node());
-  };
-  callbacks.tools_changed = [this](const auto& kept) {
-    publisher_.set_tools(core_.parameters().tools);
-    hands_ = make_hands(core_.tools(), kept);
+void HapticProxyNode::handle(SteadyTime) {
+  while (const auto update = inbox_.intake.next()) {
     has_new_shape_ = true;
-  };
-  callbacks.break_down = [this](const std::string& why) { let_go("the node broke down: " + why); };
-  return callbacks;
+    if (update->status == ContactArray::OK) counters_.meshes.count();
+    if (update->change) await_shape(*update);
+    if (parameters_.organ_interpolation) shapes_.update(inbox_.organs, SteadyClock::now());
+  }
+  follow_waiting_hands();
 }
 
-void HapticProxyNode::run(const std::function<bool()>& stop) {
-  core_.run(stop);
-  let_go("the node ends");
+void HapticProxyNode::work() {
+  follow_hands();
+  markers_.update(inbox_.organs, [this] { return views(); });
+}
+
+void HapticProxyNode::reset() {
+  inbox_.forget_history();
+  reset_proxies("reset was called");
+}
+
+void HapticProxyNode::parameters_changed() {
+  for (Hand& hand : hands_) {
+    if (hand.proxy) hand.proxy->update_settings();
+  }
+  markers_.set_settings(parameters_.markers);
+}
+
+void HapticProxyNode::prepare_tools(const std::vector<ToolParameters>& tools) {
+  for (Hand& hand : hands_) hand.is_leaving = false;  // If the exchange fails, the hands stay.
+  inbox_.motion.change_tools(tools, core_.node());
+}
+
+void HapticProxyNode::tools_changed(const KeptTools& kept) {
+  publisher_.set_tools(parameters_.tools);
+  hands_ = make_hands(core_.tools(), kept);
+  has_new_shape_ = true;
 }
 
 /// Lets all forces fade, and publishes why. Returns when the last messages have left.
-void HapticProxyNode::let_go(const std::string& why) {
+void HapticProxyNode::end(const std::exception* fault) {
+  const std::string why =
+      fault ? std::string("the node broke down: ") + fault->what() : "the node ends";
   for (const Hand& hand : hands_) {
     if (hand.proxy) hand.proxy->let_go();
   }
@@ -193,7 +186,7 @@ void HapticProxyNode::follow_hand(std::size_t tool, Time now) {
 
 /// The organs at `now`. Throws Rejection.
 ProxyScene HapticProxyNode::scene_at(Time now) {
-  const bool interpolates = core_.parameters().organ_interpolation;
+  const bool interpolates = parameters_.organ_interpolation;
   const auto shape_of = [&](const DeformableOrgan& organ) -> Timed<SharedShape> {
     const OrganShape& latest = organ.latest();
     return {interpolates ? shapes_.shape(organ, now) : latest.mesh, latest.stamp};
@@ -201,8 +194,8 @@ ProxyScene HapticProxyNode::scene_at(Time now) {
   ProxyScene scene = proxy_scene(inbox_.organs, inbox_.transforms, frame_.name(), age_limits(),
                                  ros::Time::now(), shape_of);
   for (std::size_t i = 0; i < scene.organs.size(); ++i) {
-    const auto kept = core_.parameters().keep.find(scene.sources[i]->name());
-    if (kept != core_.parameters().keep.end()) scene.organs[i].keep = kept->second;
+    const auto kept = parameters_.keep.find(scene.sources[i]->name());
+    if (kept != parameters_.keep.end()) scene.organs[i].keep = kept->second;
   }
   return scene;
 }
@@ -215,7 +208,7 @@ ProxyScene HapticProxyNode::scene_of(const AwaitedShape& awaited) {
     return {organ.latest().mesh, organ.latest().stamp};
   };
   return proxy_scene(inbox_.organs, inbox_.transforms, frame_.name(),
-                     {core_.parameters().mesh_timeout_sec, 0.0}, ros::Time::now(), shape_of,
+                     {parameters_.mesh_timeout_sec, 0.0}, ros::Time::now(), shape_of,
                      awaited.shape.stamp);
 }
 
@@ -268,7 +261,7 @@ std::optional<Timed<ToolPose>> HapticProxyNode::pose_for(std::size_t tool,
     if (pose.found->stamp.isZero()) pose.found->stamp = stamp;
     return pose.found;
   }
-  if (now - awaited.since < duration(core_.parameters().pose_timeout_sec)) return std::nullopt;
+  if (now - awaited.since < duration(parameters_.pose_timeout_sec)) return std::nullopt;
   return latest_pose(tool);
 }
 
@@ -308,7 +301,7 @@ bool HapticProxyNode::is_due(std::size_t tool, ros::Time stamp, bool have_organs
   }
   check_age(inbox_.transforms, frame_.name(), swept_frames(core_.tools()[tool]), age_limits(),
             ros::Time::now());
-  const double timeout = core_.parameters().pose_timeout_sec;
+  const double timeout = parameters_.pose_timeout_sec;
   if (!is_at_any_time && now - *hand.heard > duration(timeout)) {
     const ToolParameters& parameters = core_.tools()[tool].parameters;
     const std::string refusal = inbox_.transforms.refusal(parameters.tip_frame);
@@ -330,7 +323,6 @@ bool HapticProxyNode::is_due(std::size_t tool, ros::Time stamp, bool have_organs
 /// Follows the hand of a tool. `answered_organ`: ProxyReport::answered_organ.
 void HapticProxyNode::tick(Hand& hand, const Timed<ToolPose>& pose, const ProxyScene& scene,
                            Time now, const std::string& answered_organ) {
-  const HapticProxyParameters& parameters = core_.parameters();
   const std::string tip_frame = tip_frame_of(hand.proxy->tool());
   const auto tip = look_up(inbox_.transforms, frame_.name(), tip_frame, pose.stamp);
   if (tip.found) hand.proxy->set_tip_frame(tip.found->value);
@@ -347,7 +339,7 @@ void HapticProxyNode::tick(Hand& hand, const Timed<ToolPose>& pose, const ProxyS
     counters_.clipped.add(
         report.clipped_by,
         concatenate(named, is_force ? "the force" : "the torque", " is clipped to ",
-                    is_force ? parameters.max_force : parameters.max_torque,
+                    is_force ? parameters_.max_force : parameters_.max_torque,
                     is_force ? " N" : " N m"),
         now);
   }
@@ -409,7 +401,7 @@ std::optional<SteadyTime> HapticProxyNode::next_deadline() {
     if (hand.proxy && hand.proxy->is_fading() && (!in_lockstep || hand.why_not)) {
       add(now + kFadeStep);
     }
-    const auto timeout = duration(core_.parameters().pose_timeout_sec);
+    const auto timeout = duration(parameters_.pose_timeout_sec);
     if (!hand.shapes.empty()) add(hand.shapes.front().since + timeout);
     if (!hand.why_not && hand.heard && !hand.stamp.isZero()) add(*hand.heard + timeout);
   }
@@ -425,7 +417,7 @@ std::vector<HapticProxyNode::Hand> HapticProxyNode::make_hands(std::vector<Tool>
   for (std::size_t tool = 0; tool < tools.size(); ++tool) {
     if (kept[tool] || !tools[tool].fault.empty()) continue;
     try {
-      hands[tool].proxy = std::make_unique<ToolProxy>(tools[tool], core_.parameters());
+      hands[tool].proxy = std::make_unique<ToolProxy>(tools[tool], parameters_);
     } catch (const std::invalid_argument& error) {
       tools[tool].fault = tools[tool].parameters.name + ": " + error.what();
     }
@@ -464,7 +456,7 @@ void HapticProxyNode::change_frame(const std::string& before) {
 
 /// Waits until the forces of tools that will be removed or changed have faded. Runs in the
 /// background thread. The node's thread lets the forces fade meanwhile.
-void HapticProxyNode::let_leaving_hands_fade(const KeptTools& kept) {
+void HapticProxyNode::release_tools(const KeptTools& kept) {
   bool is_fading = false;
   core_.in_node_thread([&] {
     for (std::size_t tool = 0; tool < hands_.size(); ++tool) {
@@ -500,7 +492,7 @@ void HapticProxyNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& stat
   status.add("tick time, 99th percentile [us]", times.percentile_99 * kMicroseconds);
   status.add("tick time, worst [us]", times.worst * kMicroseconds);
   status.add("poses merged into later ones", counters_.poses_merged);
-  for (const std::string& sentence : core_.parameters().misspelt) {
+  for (const std::string& sentence : parameters_.misspelt) {
     status.mergeSummary(DiagnosticStatus::WARN, sentence);
   }
   for (std::size_t tool = 0; tool < core_.tools().size(); ++tool) {
@@ -509,7 +501,7 @@ void HapticProxyNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& stat
     status.mergeSummary(DiagnosticStatus::WARN,
                         "tool '" + core_.tools()[tool].parameters.name + "': " + why_not->what());
   }
-  for (const auto& [name, side] : core_.parameters().keep) {
+  for (const auto& [name, side] : parameters_.keep) {
     const auto organ = inbox_.organs.organs().find(name);
     if (side != Side::kInside || organ == inbox_.organs.organs().end()) continue;
     const SurfaceTopology* const topology = organ->second.latest().topology();
@@ -522,6 +514,15 @@ void HapticProxyNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& stat
   show_failures("unanswered", counters_.failed, status);
   show_failures("clipped", counters_.clipped, status);
   show_failures("proxies", counters_.placed_anew, status);
+}
+
+void run_haptic_proxy(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
+                      const RunControl& control) {
+  HapticProxyParameters parameters;
+  const ParameterTable table = load_parameters(parameters, private_node);
+  NodeCore core(node, private_node, parameters, table);
+  HapticProxyNode proxies(core, parameters);
+  core.run(proxies, control);
 }
 
 }  // namespace organ_collision

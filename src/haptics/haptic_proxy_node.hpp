@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <deque>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,19 +28,24 @@ namespace organ_collision {
 /// has one tick for each shape of an organ. One thread does all this (node_core.hpp) and owns the
 /// GL contexts. The background thread inspects surfaces, and loads new
 /// tools and parameters.
-class HapticProxyNode {
+class HapticProxyNode final : public OrganNode {
  public:
-  /// Throws ParameterError and GlError. The same thread must call run().
-  HapticProxyNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
-  ~HapticProxyNode() { core_.end(); }
+  /// Throws GlError.
+  HapticProxyNode(NodeCore& core, const HapticProxyParameters& parameters);
 
-  /// Works until ROS shuts down or `stop` returns true. Throws an exception that the node cannot
-  /// recover from, such as std::bad_alloc. Before it returns or throws, forces fade and NO_ANSWER
-  /// is published for each tool that has a proxy, if ROS still works.
-  void run(const std::function<bool()>& stop = [] { return false; });
+  void start() override;
+  void watch_clock() override;
+  void handle(SteadyTime now) override;
+  void work() override;
+  std::optional<SteadyTime> next_deadline() override;
+  void reset() override;
+  void parameters_changed() override;
+  void release_tools(const KeptTools& kept) override;
+  void prepare_tools(const std::vector<ToolParameters>& tools) override;
+  void tools_changed(const KeptTools& kept) override;
+  void end(const std::exception* fault) override;
 
  private:
-  using Core = NodeCore<HapticProxyParameters>;
   using Time = ToolProxy::Time;
   using SharedShape = std::shared_ptr<const TriangleMesh>;
 
@@ -68,8 +72,6 @@ class HapticProxyNode {
     std::deque<AwaitedShape> shapes = {};   ///< in lockstep: the oldest first
   };
 
-  Core::Callbacks callbacks();
-  void let_go(const std::string& why);
   void follow_waiting_hands();
   void follow_hands();
   void follow_hand(std::size_t tool, Time now);
@@ -78,7 +80,7 @@ class HapticProxyNode {
   std::optional<Timed<ToolPose>> pose_for(std::size_t tool, const AwaitedShape& awaited, Time now);
   void check_proxy(std::size_t tool) const;
   AgeLimits age_limits() const {
-    return {core_.parameters().mesh_timeout_sec, core_.parameters().frame_timeout_sec};
+    return {parameters_.mesh_timeout_sec, parameters_.frame_timeout_sec};
   }
   Timed<ToolPose> latest_pose(std::size_t tool) const;
   ProxyScene scene_at(Time now);
@@ -88,16 +90,14 @@ class HapticProxyNode {
             const std::string& answered_organ = "");
   std::vector<ProxyView> views() const;
   void lose(std::size_t tool, const Rejection& why, Time now);
-  std::optional<SteadyTime> next_deadline();
   std::vector<Hand> make_hands(std::vector<Tool>& tools, const KeptTools& kept);
   void reset_proxies(const std::string& why);
   void change_frame(const std::string& before);
-  void let_leaving_hands_fade(const KeptTools& kept);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
+  NodeCore& core_;
+  const HapticProxyParameters& parameters_;
   ProxyCounters counters_;
-  Core core_;
-
   Inbox inbox_;
   ToolPoses poses_;
   OrganInterpolation shapes_;

@@ -1,11 +1,11 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "common/program/restarting_nodelet.hpp"
-#include "haptic_proxy_node.hpp"
+#include "haptic_proxy.hpp"
 
 namespace organ_collision {
 
-using HapticProxyNodelet = RestartingNodelet<HapticProxyNode>;
+using HapticProxyNodelet = RestartingNodelet<run_haptic_proxy>;
 
 }  // namespace organ_collision
 

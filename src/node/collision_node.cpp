@@ -5,9 +5,16 @@
 #include <chrono>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "common/messages/text.hpp"
+#include "node/markers/marker_publisher.hpp"
+#include "node/publishing/diagnostics.hpp"
+#include "node/publishing/touch_tracker.hpp"
+#include "node/queries/query_services.hpp"
+#include "node/steps/collision_pipeline.hpp"
 #include "node/steps/contact_array.hpp"
+#include "node_core.hpp"
 #include "organ_collision/ros/names.hpp"
 
 namespace organ_collision {
@@ -18,71 +25,116 @@ constexpr std::uint32_t kContactQueue = 100;
 /// [messages] An event comes once and must not be lost.
 constexpr std::uint32_t kTouchQueue = 1000;
 
-}  // namespace
+/// The node. It connects the topics with the pipeline, and the pipeline with the publishers
+/// (doc/theory/architecture.md). The thread that runs it owns all state (node_core.hpp). Work that
+/// no step may wait for has threads of its own.
+class CollisionNode final : public OrganNode {
+ public:
+  /// Throws GlError.
+  CollisionNode(NodeCore& core, const NodeParameters& parameters);
 
-CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
-    : core_(node, private_node, callbacks()),
-      contacts_(core_.private_node().advertise<ContactArray>(names::kContacts, kContactQueue)),
-      touch_events_(core_.private_node().advertise<TouchEvent>(names::kTouches, kTouchQueue)),
+  void start() override;
+  void watch_clock() override;
+  void handle(SteadyTime now) override { pipeline_.apply_organ_messages(now); }
+  void work() override;
+  std::optional<SteadyTime> next_deadline() override { return pipeline_.steps.next_deadline(); }
+  void reset() override;
+  void parameters_changed() override;
+  void release_tools(const KeptTools&) override {}
+  void prepare_tools(const std::vector<ToolParameters>& tools) override;
+  void tools_changed(const KeptTools& kept) override;
+  void end(const std::exception* fault) override;
+
+ private:
+  void publish(const ToolStep& step);
+  void watch_ends(const ToolStep& step);
+  void report(const OrganUpdate& update);
+  void forget_touches(const KeptTools& kept);
+  void break_down(const std::string& why);
+  void publish_failure(const std::string& organ, const std_msgs::Header& header,
+                       std::uint8_t status, const std::string& message);
+  void start_ticks();
+
+  NodeCore& core_;
+  const NodeParameters& parameters_;
+  NodeCounters counters_;
+  ros::Publisher contacts_, touch_events_;
+  TouchTracker touches_;
+  std::vector<SwapWatch> swaps_;  ///< of each tool
+  MarkerPublisher markers_;
+  CollisionPipeline pipeline_;
+  QueryServices services_;
+  double tick_rate_hz_ = 0.0;
+  ros::Timer tick_;
+};
+
+CollisionNode::CollisionNode(NodeCore& core, const NodeParameters& parameters)
+    : core_(core),
+      parameters_(parameters),
+      contacts_(core.private_node().advertise<ContactArray>(names::kContacts, kContactQueue)),
+      touch_events_(core.private_node().advertise<TouchEvent>(names::kTouches, kTouchQueue)),
       touches_([this](const TouchEvent& event) { touch_events_.publish(event); }),
-      swaps_(core_.tools().size()),
-      markers_(core_.private_node(), core_.parameters().markers, core_.tools()),
-      pipeline_(core_.parameters(), core_.tools(), counters_.rejected,
+      swaps_(core.tools().size()),
+      markers_(core.private_node(), parameters.markers, core.tools()),
+      pipeline_(parameters, core.tools(), counters_.rejected,
                 {[this](const ToolStep& step) { publish(step); },
                  [this](const OrganUpdate& update) { report(update); }},
-                core_.organ_threads()),
+                core.organ_threads()),
       services_(
-          {core_.parameters(), core_.tools(), pipeline_},
-          [this](const std::function<void()>& action) { core_.in_node_thread(action); },
-          counters_) {
-  pipeline_.inbox.subscribe(core_.node(), core_.private_node());
-  services_.advertise(on_queue(core_.private_node(), query_thread_.queue()),
-                      on_queue(core_.private_node(), batch_thread_.queue()));
-  start_ticks();
+          {parameters, core.tools(), pipeline_},
+          [&core](const auto& action) { core.in_node_thread(action); }, counters_) {}
+
+void CollisionNode::start() {
   core_.updater().add("queries", [this](auto& status) {
-    show_queries(core_.parameters().misspelt, pipeline_, counters_, status);
+    show_queries(parameters_.misspelt, pipeline_, counters_, status);
   });
-  add_diagnostics(core_.updater(), ReceivedParts{core_.parameters().mesh_timeout_sec, core_.tools(),
-                                                 pipeline_.inbox.organs, pipeline_.inbox.intake,
-                                                 counters_.meshes, counters_.rejected});
-  core_.start();
+  add_diagnostics(core_.updater(),
+                  ReceivedParts{parameters_.mesh_timeout_sec, core_.tools(), pipeline_.inbox.organs,
+                                pipeline_.inbox.intake, counters_.meshes, counters_.rejected});
+  pipeline_.inbox.subscribe(core_.node(), core_.private_node());
+  services_.advertise(on_queue(core_.private_node(), core_.start_thread()),
+                      on_queue(core_.private_node(), core_.start_thread()));
+  start_ticks();
   ROS_INFO("ready: %s, GL %s", counted(core_.tools().size(), "tool").c_str(),
            pipeline_.workers.gl_version().c_str());
 }
 
-NodeCore<NodeParameters>::Callbacks CollisionNode::callbacks() {
-  Core::Callbacks callbacks;
-  callbacks.loop = {[this] {
-                      if (pipeline_.watch_clock()) touches_.end_all("clock stepped back");
-                    },
-                    [this](SteadyTime now) { pipeline_.apply_organ_messages(now); }};
-  callbacks.work = [this] {
-    pipeline_.steps.evaluate(core_.loop().heard_until());
-    if (const auto report = pipeline_.steps.load().take_report()) {
-      counters_.late.add("falls behind", *report, std::chrono::steady_clock::now());
-    }
-    markers_.update(pipeline_.inbox.organs, pipeline_.steps.history());
-  };
-  callbacks.next_deadline = [this] { return pipeline_.steps.next_deadline(); };
-  callbacks.reset = [this] {
-    pipeline_.reset();
-    touches_.end_all("reset");
-  };
-  callbacks.parameters_changed = [this](const NodeParameters& before) {
-    if (before.rate_hz != core_.parameters().rate_hz) start_ticks();
-    markers_.set_settings(core_.parameters().markers);
-  };
-  callbacks.prepare_tools = [this](const auto& tools) {
-    pipeline_.inbox.motion.change_tools(tools, core_.node());
-  };
-  callbacks.tools_changed = [this](const auto& kept) {
-    forget_touches(kept);
-    pipeline_.steps.change_tools(kept);
-    markers_.set_tools(core_.tools());
-    swaps_.assign(core_.tools().size(), {});
-  };
-  callbacks.break_down = [this](const std::string& why) { break_down(why); };
-  return callbacks;
+void CollisionNode::watch_clock() {
+  if (pipeline_.watch_clock()) touches_.end_all("clock stepped back");
+}
+
+void CollisionNode::work() {
+  pipeline_.steps.evaluate(core_.loop().heard_until());
+  if (const auto report = pipeline_.steps.load().take_report()) {
+    counters_.late.add("falls behind", *report, std::chrono::steady_clock::now());
+  }
+  markers_.update(pipeline_.inbox.organs, pipeline_.steps.history());
+}
+
+void CollisionNode::reset() {
+  pipeline_.reset();
+  touches_.end_all("reset");
+}
+
+void CollisionNode::parameters_changed() {
+  start_ticks();
+  markers_.set_settings(parameters_.markers);
+}
+
+void CollisionNode::prepare_tools(const std::vector<ToolParameters>& tools) {
+  pipeline_.inbox.motion.change_tools(tools, core_.node());
+}
+
+void CollisionNode::tools_changed(const KeptTools& kept) {
+  forget_touches(kept);
+  pipeline_.steps.change_tools(kept);
+  markers_.set_tools(core_.tools());
+  swaps_.assign(core_.tools().size(), {});
+}
+
+void CollisionNode::end(const std::exception* fault) {
+  services_.end();
+  if (fault) break_down(fault->what());
 }
 
 /// Publishes the answer of a step, counts it, and shows it.
@@ -126,8 +178,7 @@ void CollisionNode::report(const OrganUpdate& update) {
   const bool is_gone =
       update.change == OrganChange::kRemoved || update.change == OrganChange::kOrgan;
   if (is_gone || update.change == OrganChange::kSender) {
-    touches_.forget([&](const auto& pair) { return pair.first == update.message.organ(); },
-                    is_gone ? "organ removed" : "sender restarted");
+    touches_.forget_organ(update.message.organ(), is_gone ? "organ removed" : "sender restarted");
   }
   if (update.status == ContactArray::OK) return counters_.meshes.count();
   publish_failure(update.message.organ(), update.message.header(), update.status, update.why_not);
@@ -140,8 +191,7 @@ void CollisionNode::forget_touches(const KeptTools& kept) {
   for (std::size_t tool = 0; tool < kept.size(); ++tool) {
     if (kept[tool]) staying.insert(core_.tools()[tool].parameters.name);
   }
-  touches_.forget([&](const auto& pair) { return staying.count(pair.second) == 0; },
-                  "tools changed");
+  touches_.forget_other_tools(staying, "tools changed");
 }
 
 /// Publishes PICKER_FAILED for each organ and tool: subscribers must not take the silence of a node
@@ -170,10 +220,11 @@ void CollisionNode::publish_failure(const std::string& organ, const std_msgs::He
   }
 }
 
-/// Starts ticks at the parameter `rate`. Called again when the rate has changed.
+/// Starts ticks at the parameter `rate`, unless they have this rate already.
 void CollisionNode::start_ticks() {
+  const double rate = parameters_.rate_hz;
+  if (rate == std::exchange(tick_rate_hz_, rate)) return;
   tick_ = ros::Timer();
-  const double rate = core_.parameters().rate_hz;
   if (!(rate > 0.0)) return;
   tick_ = core_.private_node().createTimer(
       ros::Duration(1.0 / rate), [this, rate](const ros::TimerEvent& event) {
@@ -182,6 +233,17 @@ void CollisionNode::start_ticks() {
         const auto ticks = is_first ? 1.0 : std::clamp(std::round(since * rate), 1.0, 1e9);
         pipeline_.steps.add_tick(static_cast<std::uint64_t>(ticks) - 1);
       });
+}
+
+}  // namespace
+
+void run_collision_node(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
+                        const RunControl& control) {
+  NodeParameters parameters;
+  const ParameterTable table = load_parameters(parameters, private_node);
+  NodeCore core(node, private_node, parameters, table);
+  CollisionNode collision_node(core, parameters);
+  core.run(collision_node, control);
 }
 
 }  // namespace organ_collision

@@ -5,7 +5,7 @@
 
 namespace organ_collision {
 
-using CollisionNodelet = RestartingNodelet<CollisionNode>;
+using CollisionNodelet = RestartingNodelet<run_collision_node>;
 
 }  // namespace organ_collision
 

@@ -31,23 +31,8 @@ constexpr std::chrono::milliseconds kShortestSimulatedWait(1);
 /// tf_timeout_sec for their transforms.
 constexpr std::chrono::seconds kLongestBacklog(1);
 
-}  // namespace
-
-void MessageLoop::receive(std::optional<SteadyTime> deadline) {
-  SteadyTime before = clock_.now();
-  bool called = call_one(wait(deadline, before));
-  const SteadyTime end = SteadyClock::now() + kLongestDrain;
-  while (called && SteadyClock::now() < end) {
-    before = clock_.now();
-    called = call_one(ros::WallDuration(0.0));
-  }
-  // If callbacks are left, a transform may be among them. heard_until_ then stays as it is, so that
-  // no shape misses its transform, but it stays at most kLongestBacklog behind.
-  heard_until_ = called ? std::max(heard_until_, before - kLongestBacklog) : before;
-}
-
 /// How long to wait for the first callback.
-ros::WallDuration MessageLoop::wait(std::optional<SteadyTime> deadline, SteadyTime now) const {
+ros::WallDuration wait_until(std::optional<SteadyTime> deadline, SteadyTime now) {
   std::chrono::nanoseconds wait = kLongestWait;
   if (deadline) wait = std::min<std::chrono::nanoseconds>(wait, *deadline - now);
   // Simulated time advances in jumps, and no callback tells of them. The node must look for them:
@@ -56,12 +41,50 @@ ros::WallDuration MessageLoop::wait(std::optional<SteadyTime> deadline, SteadyTi
   return ros::WallDuration().fromNSec(std::max<std::chrono::nanoseconds>(wait, shortest).count());
 }
 
+/// Logs what is doubtful about the parameters of a node: unknown names, tools that do not work, and
+/// implausible sizes.
+void warn_of_settings(const std::vector<Tool>& tools, const std::vector<std::string>& misspelt) {
+  for (const std::string& sentence : misspelt) ROS_WARN("%s", sentence.c_str());
+  if (tools.empty()) ROS_WARN("%s", kNoTools);
+  for (const Tool& tool : tools) {
+    if (!tool.fault.empty()) ROS_ERROR("%s", tool.fault.c_str());
+    for (const std::string& doubt : doubts(tool)) ROS_WARN("%s", doubt.c_str());
+  }
+}
+
+/// Compares the old tools of a node with new ones. Throws ToolError if a new or changed tool has a
+/// fault. An unchanged tool may keep its fault.
+ToolChanges accepted_changes(const std::vector<Tool>& old_tools,
+                             const std::vector<Tool>& new_tools) {
+  ToolChanges changes = compare_tools(old_tools, new_tools);
+  for (std::size_t tool = 0; tool < new_tools.size(); ++tool) {
+    const std::string& fault = new_tools[tool].fault;
+    if (!changes.kept[tool] && !fault.empty()) throw ToolError(fault);
+  }
+  return changes;
+}
+
+}  // namespace
+
+void MessageLoop::receive(OrganNode& node) {
+  SteadyTime before = clock_.now();
+  bool called = call_one(node, wait_until(node.next_deadline(), before));
+  const SteadyTime end = SteadyClock::now() + kLongestDrain;
+  while (called && SteadyClock::now() < end) {
+    before = clock_.now();
+    called = call_one(node, ros::WallDuration(0.0));
+  }
+  // If callbacks are left, a transform may be among them. heard_until_ then stays as it is, so that
+  // no shape misses its transform, but it stays at most kLongestBacklog behind.
+  heard_until_ = called ? std::max(heard_until_, before - kLongestBacklog) : before;
+}
+
 /// Calls one callback, and the node's own functions around it. Returns false if there was none.
-bool MessageLoop::call_one(ros::WallDuration wait) {
-  callbacks_.watch_clock();
+bool MessageLoop::call_one(OrganNode& node, ros::WallDuration wait) {
+  node.watch_clock();
   const bool called = queue_.callOne(wait) == ros::CallbackQueue::Called;
-  callbacks_.watch_clock();
-  callbacks_.handle(clock_.now());
+  node.watch_clock();
+  node.handle(clock_.now());
   return called;
 }
 
@@ -101,23 +124,115 @@ ProgramHelp organ_node_help(const std::string& program, const std::string& purpo
   return help;
 }
 
-void warn_of_settings(const std::vector<Tool>& tools, const std::vector<std::string>& misspelt) {
-  for (const std::string& sentence : misspelt) ROS_WARN("%s", sentence.c_str());
-  if (tools.empty()) ROS_WARN("%s", kNoTools);
-  for (const Tool& tool : tools) {
-    if (!tool.fault.empty()) ROS_ERROR("%s", tool.fault.c_str());
-    for (const std::string& doubt : doubts(tool)) ROS_WARN("%s", doubt.c_str());
+NodeCore::NodeCore(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
+                   OrganNodeParameters& parameters, const ParameterTable& table)
+    : node_(on_queue(node, loop_.queue())),
+      private_node_(on_queue(private_node, loop_.queue())),
+      parameters_(parameters),
+      table_(table),
+      realtime_(parameters.realtime),
+      tools_(load_tools(parameters.tools, private_node_)),
+      diagnostics_(node_, private_node_, parameters.diagnostic_period_sec),
+      live_parameters_(on_queue(private_node, background_), table_, [this](const auto& changes) {
+        in_node_thread([&] {
+          table_.change(changes);
+          running_->parameters_changed();
+        });
+      }) {}
+
+void NodeCore::run(OrganNode& node, const RunControl& control) {
+  try {
+    start(node);
+    control.ready();
+    try {
+      while (private_node_.ok() && !control.stop) {
+        loop_.receive(node);
+        if (broken_) std::rethrow_exception(broken_);
+        node.work();
+      }
+    } catch (const std::exception& fault) {
+      say_last_words(fault);
+      throw;
+    }
+    node.end(nullptr);
+  } catch (...) {
+    end_threads();
+    throw;
+  }
+  end_threads();
+}
+
+void NodeCore::start(OrganNode& node) {
+  running_ = &node;
+  warn_of_settings(tools_, parameters_.misspelt);
+  updater().add("scheduling", &realtime_, &Realtime::diagnose);
+  live_parameters_.advertise();
+  reload_ = on_queue(private_node_, background_)
+                .advertiseService(names::kReloadTools, &NodeCore::on_reload, this);
+  reset_ = private_node_.advertiseService(names::kReset, &NodeCore::on_reset, this);
+  list_ = private_node_.advertiseService(names::kListTools, &NodeCore::on_list, this);
+  node.start();
+}
+
+/// Releases the threads that wait for the node's thread, and waits until all of them have ended.
+void NodeCore::end_threads() {
+  loop_.end();
+  for (QueueThread& thread : threads_) thread.stop();
+}
+
+/// Runs in the background thread, because robots' files may take seconds to load.
+bool NodeCore::on_reload(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  try {
+    const ParameterGroup all = table_.group(all_parameters(private_node_));
+    std::vector<std::string> misspelt = all.misspelt();
+    std::vector<ToolParameters> parameters = parse_tools(all, misspelt);
+    std::vector<Tool> tools = load_tools(parameters, private_node_);
+    const ToolChanges changes = accepted_changes(tools_, tools);
+    running_->release_tools(changes.kept);
+    in_node_thread([&] { exchange_tools(tools, parameters, misspelt, changes.kept); });
+    response.success = true;
+    response.message = plain_text(changes.summary, kLongestMessage);
+    ROS_INFO("tools are reloaded: %s", response.message.c_str());
+  } catch (const std::exception& error) {
+    response.message = plain_text(error.what(), kLongestMessage);
+    ROS_WARN("tools stay as they were: %s", response.message.c_str());
+  }
+  return true;
+}
+
+void NodeCore::exchange_tools(std::vector<Tool>& tools, std::vector<ToolParameters>& parameters,
+                              std::vector<std::string>& misspelt, const KeptTools& kept) {
+  running_->prepare_tools(parameters);
+  try {
+    tools_.swap(tools);
+    parameters_.misspelt.swap(misspelt);
+    parameters_.tools.swap(parameters);
+    running_->tools_changed(kept);
+    warn_of_settings(tools_, parameters_.misspelt);
+  } catch (...) {
+    broken_ = std::current_exception();
+    throw;
   }
 }
 
-ToolChanges accepted_changes(const std::vector<Tool>& old_tools,
-                             const std::vector<Tool>& new_tools) {
-  ToolChanges changes = compare_tools(old_tools, new_tools);
-  for (std::size_t tool = 0; tool < new_tools.size(); ++tool) {
-    const std::string& fault = new_tools[tool].fault;
-    if (!changes.kept[tool] && !fault.empty()) throw ToolError(fault);
+bool NodeCore::on_reset(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
+  running_->reset();
+  return true;
+}
+
+bool NodeCore::on_list(ListTools::Request&, ListTools::Response& response) {
+  for (const Tool& tool : tools_) response.tools.push_back(info_of(tool));
+  return true;
+}
+
+/// Lets the node tell its subscribers why it ends.
+void NodeCore::say_last_words(const std::exception& fault) {
+  try {
+    running_->end(&fault);
+    updater().force_update();
+  } catch (const std::exception&) {  // The exception that ends the node is more important.
   }
-  return changes;
+  ros::WallDuration(1.0).sleep();  // Time for the last messages to be sent.
 }
 
 }  // namespace organ_collision

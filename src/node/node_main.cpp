@@ -6,6 +6,7 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include "collision_node.hpp"
+#include "node_core.hpp"
 #include "organ_collision/ros/names.hpp"
 
 namespace organ_collision {
@@ -52,8 +53,7 @@ int main(int argc, char** argv) {
   using namespace organ_collision;
   return run_program(argc, argv, node_help(), names::kNode,
                      [](const ros::NodeHandle& node, const ros::NodeHandle& private_node) {
-                       make_ros_realtime(
-                           node, load_parameters<NodeParameters>(private_node).realtime.priority);
-                       CollisionNode(node, private_node).run();
+                       make_ros_realtime(node, private_node);
+                       run_collision_node(node, private_node, RunControl());
                      });
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/messages/conversions.hpp"
+#include "common/messages/failure_log.hpp"
 #include "common/messages/text.hpp"
 #include "organ_collision/query/contact.hpp"
 
@@ -49,8 +50,7 @@ class AnswerCheck {
 
   Faults run() {
     const bool is_ok = answer_.status == ContactArray::OK;
-    require(answer_.status <= ContactArray::INVALID_TOOL, "status", "status is ",
-            int{answer_.status});
+    require(answer_.status < status_names().size(), "status", "status is ", int{answer_.status});
     require(!is_ok || answer_.mode <= ContactArray::PAPER_NAIVE, "mode", "mode is ",
             int{answer_.mode});
     check_text("message", answer_.message, kLongestMessage);

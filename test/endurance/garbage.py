@@ -11,7 +11,7 @@ PATIENCE = 5.0  # [s] for any answer
 LENGTHS = [0, 1, 255, 2**16, 2**24, 2**28, 2**30, 2**30 + 1, 10**9, 10**9 + 1, 2**31 - 1, 2**31, 2**32 - 2, 2**32 - 1]
 TYPES = ['i4', 'int', 'boolean', 'double', 'string', 'base64', 'dateTime.iso8601', 'array', 'struct', 'nonsense']
 VALUES = ['', '0', '-1', '99999999999999999999', '1e999', 'nan', '####', 'A' * 5000, '<value>', '</value>', '<data>']
-METHODS = ['publisherUpdate', 'requestTopic', 'paramUpdate', 'getBusInfo', 'getPid', 'system.multicall', 'nothing', '']
+METHODS = ['publisherUpdate', 'requestTopic', 'getBusInfo', 'getPid', 'system.multicall', 'nothing', '']
 
 
 def length(rng):

@@ -125,16 +125,16 @@ void check(const NodeParameters& parameters) {
 void load_all(const YamlParameters& file) {
   const XmlRpc::XmlRpcValue& all = file.group();
   load([&] {
-    const NodeParameters parameters = file.node_parameters();
+    NodeParameters parameters = file.node_parameters();
     check(parameters);
-    changed(parameters, all);
+    table_of(parameters).change(all);
     for (const ToolParameters& tool : parameters.tools) file.find_text(tool.robot_description);
   });
   load([&] {
-    const auto parameters = parse_parameters<HapticProxyParameters>(all);
+    auto parameters = parse_parameters<HapticProxyParameters>(all);
     demand(parameters.max_force > 0.0, "the largest force is positive");
     for (const ToolParameters& tool : parameters.tools) proxy_settings(parameters, tool);
-    changed(parameters, all);
+    table_of(parameters).change(all);
   });
   load([&] { parse_parameters<MeshAdapterParameters>(all); });
 }

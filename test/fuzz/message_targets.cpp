@@ -104,7 +104,7 @@ struct QueryNode : ServedNode {
 };
 
 void check(std::uint8_t status, const std::string& message, bool has_results) {
-  demand(status <= ContactArray::INVALID_TOOL, "the status is one of ContactArray's");
+  demand(status < status_names().size(), "the status is one of ContactArray's");
   demand(status != ContactArray::PICKER_FAILED, "no query fails");
   demand(status == ContactArray::OK || !has_results, "a failure has no results");
   demand(status == ContactArray::OK || !message.empty(), "a failure has a message");

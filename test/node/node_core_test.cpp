@@ -11,35 +11,59 @@ namespace {
 
 using namespace std::chrono_literals;
 
+/// A node that counts what the loop calls around each callback.
+class CountingNode final : public OrganNode {
+ public:
+  void start() override {}
+  void watch_clock() override { ++watched; }
+  void handle(SteadyTime) override { ++handled; }
+  void work() override {}
+  std::optional<SteadyTime> next_deadline() override { return deadline; }
+  void reset() override {}
+  void parameters_changed() override {}
+  void release_tools(const KeptTools&) override {}
+  void prepare_tools(const std::vector<ToolParameters>&) override {}
+  void tools_changed(const KeptTools&) override {}
+  void end(const std::exception*) override {}
+
+  int watched = 0, handled = 0;
+  std::optional<SteadyTime> deadline = {};
+};
+
 class MessageLoopTest : public testing::Test {
  protected:
   MessageLoopTest() { ros::Time::init(); }
 
-  int watched_ = 0, handled_ = 0;
-  MessageLoop loop_{{[this] { ++watched_; }, [this](SteadyTime) { ++handled_; }}};
+  void receive(std::optional<SteadyTime> deadline = {}) {
+    node_.deadline = deadline;
+    loop_.receive(node_);
+  }
+
+  CountingNode node_;
+  MessageLoop loop_;
 };
 
 TEST_F(MessageLoopTest, CallsAllCallbacksThatAreThere) {
   int called = 0;
   for (int i = 0; i < 5; ++i) call_later(loop_.queue(), [&] { ++called; });
-  while (called < 5) loop_.receive(std::nullopt);
-  EXPECT_GE(handled_, 5) << "after each callback";
-  EXPECT_GE(watched_, handled_) << "before each callback, and after a batch";
+  while (called < 5) receive();
+  EXPECT_GE(node_.handled, 5) << "after each callback";
+  EXPECT_GE(node_.watched, node_.handled) << "before each callback, and after a batch";
 }
 
 TEST_F(MessageLoopTest, ReturnsWithoutACallbackAndHearsUntilThen) {
   const SteadyTime before = loop_.now();
-  loop_.receive(std::nullopt);
-  loop_.receive(loop_.now());
-  loop_.receive(loop_.now() - 1s);
-  EXPECT_EQ(handled_, 3);
+  receive();
+  receive(loop_.now());
+  receive(loop_.now() - 1s);
+  EXPECT_EQ(node_.handled, 3);
   EXPECT_GE(loop_.heard_until(), before);
   EXPECT_LE(loop_.heard_until(), loop_.now());
 }
 
 TEST_F(MessageLoopTest, ThrowsWhatACallbackThrows) {
   call_later(loop_.queue(), [] { throw std::domain_error("broken"); });
-  EXPECT_THROW(loop_.receive(std::nullopt), std::domain_error);
+  EXPECT_THROW(receive(), std::domain_error);
 }
 
 TEST_F(MessageLoopTest, DropsCallbacksAtItsEnd) {
@@ -47,7 +71,7 @@ TEST_F(MessageLoopTest, DropsCallbacksAtItsEnd) {
   call_later(loop_.queue(), [&] { called = true; });
   loop_.end();
   call_later(loop_.queue(), [&] { called = true; });
-  loop_.receive(loop_.now());
+  receive(loop_.now());
   EXPECT_FALSE(called);
 }
 

@@ -56,7 +56,7 @@ struct ProofSize {
   long pairs = 1000000;    ///< trials: pairs of a face and a motion
   unsigned long seed = 1;  ///< The same seed gives the same trials.
   /// Contacts are compared with all of these, and other answers with the first one.
-  std::vector<PickerKind> pickers = {PickerKind::kFeedback, PickerKind::kSelect, PickerKind::kCpu};
+  std::vector<PickerKind> pickers = picker_kinds();
 };
 
 /// Asks the library and the oracles how far a tool is from an organ. Prints the trial if the

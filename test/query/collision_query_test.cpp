@@ -90,7 +90,7 @@ TEST_P(ScenesWith, ContactsAreThoseOfBruteForce) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ScenesWith,
-                         testing::Combine(testing::ValuesIn(kPickers),
+                         testing::Combine(testing::ValuesIn(picker_kinds()),
                                           testing::ValuesIn(kSceneKinds)),
                          [](const auto& scene) {
                            return std::get<1>(scene.param).name + std::string("_") +
@@ -312,7 +312,7 @@ TEST_P(CollisionQueryWith, LooksAtAsManyFacesWithEachPicker) {
   EXPECT_EQ(drawn > 0, GetParam() != PickerKind::kCpu);
 }
 
-INSTANTIATE_TEST_SUITE_P(Pickers, CollisionQueryWith, testing::ValuesIn(kPickers));
+INSTANTIATE_TEST_SUITE_P(Pickers, CollisionQueryWith, testing::ValuesIn(picker_kinds()));
 
 /// A request that is legal, what spoils it, and a word of the refusal.
 class Refusals : public testing::Test {

@@ -20,7 +20,7 @@ TEST_P(Exactness, IsProvenForAllKindsOfTrials) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Proofs, Exactness,
-                         testing::Combine(testing::ValuesIn(kPickers),
+                         testing::Combine(testing::ValuesIn(picker_kinds()),
                                           testing::ValuesIn(oracle::kProofs)),
                          [](const auto& proof) {
                            return std::get<1>(proof.param).name + std::string("_") +

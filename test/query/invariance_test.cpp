@@ -215,7 +215,7 @@ TEST_P(InvarianceWith, AnswersOfAllMagnitudesAreFiniteOrRefused) {
   EXPECT_GT(found, 5000U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Pickers, InvarianceWith, testing::ValuesIn(kPickers));
+INSTANTIATE_TEST_SUITE_P(Pickers, InvarianceWith, testing::ValuesIn(picker_kinds()));
 
 }  // namespace
 }  // namespace organ_collision

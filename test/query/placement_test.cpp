@@ -178,7 +178,7 @@ TEST_P(PlacementWith, IsThatAtTheEndOfTheStep) {
   EXPECT_EQ(result_.placement.length_inside, 0.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Pickers, PlacementWith, testing::ValuesIn(kPickers));
+INSTANTIATE_TEST_SUITE_P(Pickers, PlacementWith, testing::ValuesIn(picker_kinds()));
 
 }  // namespace
 }  // namespace organ_collision

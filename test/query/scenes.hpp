@@ -351,9 +351,6 @@ inline void expect_same_touches(const std::vector<FaceContact>& a,
   }
 }
 
-constexpr std::array<PickerKind, 3> kPickers = {PickerKind::kFeedback, PickerKind::kSelect,
-                                                PickerKind::kCpu};
-
 /// A query with one of the pickers.
 class CollisionQueryWith : public testing::TestWithParam<PickerKind> {
  protected:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 
 namespace organ_collision {
@@ -12,7 +13,17 @@ enum class GlPlatform {
   kEgl      ///< libEGL with one of Mesa's software renderers; it draws into a few pixels in memory
 };
 
-/// The platform called "auto", "osmesa" or "egl". Throws std::invalid_argument for any other name.
+/// A platform, as users name it.
+struct GlPlatformName {
+  const char* name;
+  GlPlatform value;
+};
+
+/// All platforms, the default one first.
+inline constexpr std::array<GlPlatformName, 3> kGlPlatformNames = {
+    {{"auto", GlPlatform::kAuto}, {"osmesa", GlPlatform::kOsmesa}, {"egl", GlPlatform::kEgl}}};
+
+/// The platform with this name. Throws std::invalid_argument if there is none.
 GlPlatform gl_platform(const std::string& name);
 
 }  // namespace organ_collision

@@ -130,8 +130,7 @@ class CheckedService : public ros::ServiceCallbackHelper {
 template <typename Message>
 ros::Subscriber subscribe_checked(
     ros::NodeHandle node, const std::string& topic, std::uint32_t queue,
-    const std::function<void(const ros::MessageEvent<const Message>&)>& callback,
-    FailureLog& rejected) {
+    const typename CheckedSubscription<Message>::Base::Callback& callback, FailureLog& rejected) {
   ros::SubscribeOptions options(topic, queue, ros::message_traits::md5sum<Message>(),
                                 ros::message_traits::datatype<Message>());
   options.helper = boost::make_shared<CheckedSubscription<Message>>(callback, rejected);

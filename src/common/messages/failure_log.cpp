@@ -3,7 +3,9 @@
 #include <organ_collision/ContactArray.h>
 #include <ros/console.h>
 
-#include <array>
+#include <algorithm>
+#include <boost/algorithm/string/case_conv.hpp>
+#include <sstream>
 
 #include "text.hpp"
 
@@ -13,16 +15,31 @@ namespace {
 
 constexpr std::chrono::seconds kLogPeriod(1);
 
-/// The reason for each status of ContactArray, at the index of its number.
-constexpr std::array<const char*, ContactArray::INVALID_TOOL + 1> kReasons = {
-    "ok",           "no mesh",         "no transform",
-    "stale mesh",   "invalid request", "unknown organ",
-    "unknown tool", "picker failed",   "invalid tool"};
+/// Reads the names of the statuses from the text of ContactArray.msg. They stand there in the order
+/// of their numbers, above the modes.
+std::vector<std::string> read_status_names() {
+  const std::string type = "uint8 ", modes = "# Modes";
+  std::istringstream message(ros::message_traits::definition<ContactArray>());
+  std::vector<std::string> names;
+  for (std::string line; std::getline(message, line) && line.rfind(modes, 0) != 0;) {
+    if (line.rfind(type, 0) != 0) continue;
+    names.push_back(line.substr(type.size(), line.find('=') - type.size()));
+  }
+  return names;
+}
 
 }  // namespace
 
+const std::vector<std::string>& status_names() {
+  static const std::vector<std::string> names = read_status_names();
+  return names;
+}
+
 std::string reason_of(std::uint8_t status) {
-  return status < kReasons.size() ? kReasons[status] : "invalid request";
+  if (status >= status_names().size()) return "status " + std::to_string(status);
+  std::string reason = boost::algorithm::to_lower_copy(status_names()[status]);
+  std::replace(reason.begin(), reason.end(), '_', ' ');
+  return reason;
 }
 
 void check_name(const std::string& what, const std::string& name) {

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace organ_collision {
 
@@ -27,8 +28,11 @@ class Rejection : public std::runtime_error {
   std::string reason_;
 };
 
-/// The reason under which failures with this status of ContactArray are counted, for example
-/// "no mesh".
+/// The names of the statuses of ContactArray, at the index of their numbers: "OK", "NO_MESH", ...
+const std::vector<std::string>& status_names();
+
+/// The reason under which failures with this status of ContactArray are counted: its name in small
+/// letters, for example "no mesh".
 std::string reason_of(std::uint8_t status);
 
 /// Throws Rejection, with the message "WHAT 'NAME' ...", if `name` is not legal (name_fault()).

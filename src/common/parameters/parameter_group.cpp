@@ -1,9 +1,7 @@
 #include "parameter_group.hpp"
 
 #include <algorithm>
-#include <boost/algorithm/string/predicate.hpp>
 #include <cmath>
-#include <cstdlib>
 #include <sstream>
 
 #include "common/messages/conversions.hpp"
@@ -61,54 +59,17 @@ std::string with_type(const XmlRpcValue& value) {
   }
 }
 
-/// How YAML 1.1 writes a number that it took for a text, such as 5e-3, 5e3 or '5'. Empty if the
-/// text is no number.
-std::string yaml_number(const std::string& text) {
-  char* end = nullptr;
-  if (boost::iequals(text, "inf") || boost::iequals(text, ".inf")) return ".inf";
-  if (text.empty() || !std::isfinite(std::strtod(text.c_str(), &end)) || *end != '\0') return {};
-  const std::size_t exponent = text.find_first_of("eE");
-  std::string mantissa = text.substr(0, exponent);
-  if (exponent == std::string::npos) return mantissa;
-  if (mantissa.find('.') == std::string::npos) mantissa += ".0";
-  const std::string power = text.substr(exponent + 1);
-  return mantissa + "e" + (power.find_first_of("+-") == 0 ? "" : "+") + power;
-}
-
-/// What to write instead of a value that is no whole number for YAML, such as 2.0, 1e1 or '7'.
-std::string whole_remedy(const XmlRpcValue& value) {
-  double number = 0.5;
-  if (value.getType() == XmlRpcValue::TypeDouble) number = static_cast<const double&>(value);
-  if (value.getType() == XmlRpcValue::TypeString && !yaml_number(text_in(value)).empty()) {
-    number = std::strtod(text_in(value).c_str(), nullptr);
-  }
-  if (number != std::floor(number) || std::abs(number) > 1e9) return {};
-  return ": write " + written(number);
-}
-
-/// What to write instead of a value whose type is not `expected`. Empty if that is not plain.
+/// How to write a value that YAML took for another type than the expected one. Empty if that is not
+/// plain.
 std::string remedy(const XmlRpcValue& value, XmlRpcValue::Type expected) {
   const XmlRpcValue::Type type = value.getType();
-  const bool is_number = type == XmlRpcValue::TypeInt || type == XmlRpcValue::TypeDouble;
-  if (expected == XmlRpcValue::TypeString) {
-    if (is_number) return ": write '" + written(value) + "', in quotes";
-    if (type != XmlRpcValue::TypeBoolean) return {};
-    return ": YAML takes on, yes, off and no for true and false; write the word in quotes";
-  }
-  if (expected == XmlRpcValue::TypeBoolean) {
-    const std::string text = type == XmlRpcValue::TypeString ? text_in(value) : written(value);
-    for (const char* const yes : {"true", "on", "yes", "1"}) {
-      if (boost::iequals(text, yes)) return ": write true without quotes";
-    }
-    for (const char* const no : {"false", "off", "no", "0"}) {
-      if (boost::iequals(text, no)) return ": write false without quotes";
-    }
-    return {};
-  }
-  if (expected == XmlRpcValue::TypeInt) return whole_remedy(value);
-  if (type != XmlRpcValue::TypeString) return {};
-  const std::string number = yaml_number(text_in(value));
-  return number.empty() ? "" : ": write " + number + " without quotes";
+  if (type == XmlRpcValue::TypeArray || type == XmlRpcValue::TypeStruct) return {};
+  if (expected == XmlRpcValue::TypeString) return ": write it in quotes";
+  if (expected == XmlRpcValue::TypeBoolean) return ": write true or false without quotes";
+  if (type == XmlRpcValue::TypeBoolean) return {};
+  return expected == XmlRpcValue::TypeInt
+             ? ": write it without quotes, decimal point and exponent"
+             : ": write it without quotes; YAML takes 5e-3 for a text, and 5.0e-3 for a number";
 }
 
 bool contains(const NumberRange& range, double number) {

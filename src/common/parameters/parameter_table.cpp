@@ -11,7 +11,6 @@
 #include <type_traits>
 
 #include "common/messages/checked_messages.hpp"
-#include "common/messages/text.hpp"
 
 namespace organ_collision {
 namespace {
@@ -21,16 +20,14 @@ using XmlRpc::XmlRpcValue;
 using Row = ParameterTable::Row;
 using Text = const std::string&;
 
-bool is_flag(const LiveParameter& parameter) { return parameter.type == XmlRpcValue::TypeBoolean; }
-
 /// A message with one value of each parameter, for example the lowest one (`which`).
-Config config(const std::vector<LiveParameter>& parameters,
-              const std::function<double(const LiveParameter&)>& which) {
+template <typename Which>
+Config config(const std::vector<Row>& parameters, const Which& which) {
   using dynamic_reconfigure::ConfigTools;
   Config message;
-  for (const LiveParameter& parameter : parameters) {
+  for (const Row& parameter : parameters) {
     const double value = which(parameter);
-    if (is_flag(parameter)) {
+    if (parameter.is_flag()) {
       ConfigTools::appendParameter(message, parameter.name, value != 0.0);
     } else {
       ConfigTools::appendParameter(message, parameter.name, value);
@@ -43,17 +40,17 @@ Config config(const std::vector<LiveParameter>& parameters,
   return message;
 }
 
-Config present(const std::vector<LiveParameter>& parameters) {
-  return config(parameters, [](const auto& parameter) { return parameter.value; });
+Config present(const std::vector<Row>& parameters) {
+  return config(parameters, [](const auto& parameter) { return parameter.value(); });
 }
 
-dynamic_reconfigure::ConfigDescription description(const std::vector<LiveParameter>& parameters) {
+dynamic_reconfigure::ConfigDescription description(const std::vector<Row>& parameters) {
   dynamic_reconfigure::Group all;
   all.name = "Default";
-  for (const LiveParameter& parameter : parameters) {
+  for (const Row& parameter : parameters) {
     dynamic_reconfigure::ParamDescription described;
     described.name = parameter.name;
-    described.type = is_flag(parameter) ? "bool" : "double";
+    described.type = parameter.is_flag() ? "bool" : "double";
     described.description = parameter.text;
     all.parameters.push_back(described);
   }
@@ -92,45 +89,53 @@ XmlRpcValue requested(const Config& request) {
 
 }  // namespace
 
+double Row::value() const {
+  const auto value_of = [](const auto& member) {
+    if constexpr (std::is_pointer_v<std::decay_t<decltype(member)>>) {
+      return static_cast<double>(*member);
+    } else {
+      return 0.0;
+    }
+  };
+  return std::visit(value_of, member);
+}
+
+void Row::set_value(double value) const {
+  if (is_flag()) *std::get<bool*>(member) = value != 0.0;
+  if (is_whole()) *std::get<int*>(member) = static_cast<int>(value);
+  if (is_number() && !is_whole()) *std::get<double*>(member) = value;
+}
+
+double Row::value_in(const ParameterGroup& all) const {
+  return is_flag() ? static_cast<double>(all.flag(name, value() != 0.0))
+                   : all.number(name, value(), range, is_whole());
+}
+
+void Row::read(const ParameterGroup& all) const {
+  is_flag() || is_number() ? set_value(value_in(all)) : std::get<Read>(member)(all);
+}
+
 HelpEntry Row::help() const {
-  const bool is_number = type == XmlRpcValue::TypeInt || type == XmlRpcValue::TypeDouble;
-  return {name, kind + (is_number ? "; " + in_words(range) : "") + (is_live ? "; live" : ""), text};
+  return {name, kind + (is_number() ? "; " + in_words(range) : "") + (is_live ? "; live" : ""),
+          text};
 }
 
 template <typename Value>
 Row& ParameterTable::number(const std::string& name, Value& value, const NumberRange& range,
                             const std::string& text) {
-  const auto read = [name, &value, range](const ParameterGroup& all) {
-    if constexpr (std::is_same_v<Value, bool>) {
-      value = all.flag(name, value);
-    } else {
-      value = static_cast<Value>(all.number(name, value, range, std::is_same_v<Value, int>));
-    }
-  };
   std::ostringstream shown;
   shown << std::boolalpha << value;
-  const bool is_unlimited = std::isinf(static_cast<double>(value));
-  Row& row = other(name, is_unlimited ? "no limit" : shown.str(), read, text);
-  row.type = XmlRpcValue(value).getType();
-  row.value = static_cast<double>(value);
-  row.range = range;
-  return row;
+  const auto number = static_cast<double>(value);
+  return rows_.emplace_back(
+      Row{{name, std::isinf(number) ? "no limit" : shown.str(), text}, &value, number, range});
 }
 
 template Row& ParameterTable::number(Text name, double& value, const NumberRange&, Text text);
 template Row& ParameterTable::number(Text name, int& value, const NumberRange&, Text text);
 template Row& ParameterTable::number(Text name, bool& value, const NumberRange&, Text text);
 
-void ParameterTable::choice(const std::string& name, const std::vector<std::string>& legal,
-                            const std::function<void(const std::string&)>& set,
-                            const std::string& text) {
-  const auto read = [=](const ParameterGroup& all) { set(all.choice(name, legal[0], legal)); };
-  other(name, legal[0] + "; " + listed(legal), read, text);
-}
-
 Row& ParameterTable::other(const std::string& name, const std::string& fallback,
-                           const std::function<void(const ParameterGroup&)>& read,
-                           const std::string& text) {
+                           const Row::Read& read, const std::string& text) {
   return rows_.emplace_back(Row{{name, fallback, text}, read});
 }
 
@@ -140,10 +145,11 @@ ParameterGroup ParameterTable::group(const XmlRpcValue& private_namespace) const
   return {"~", private_namespace, names};
 }
 
-void ParameterTable::read(const ParameterGroup& all, const std::string& name) const {
-  for (const Row& row : rows_) {
-    if (name.empty() || row.name == name) row.read(all);
-  }
+void ParameterTable::read(const XmlRpcValue& private_namespace,
+                          std::vector<std::string>& misspelt) const {
+  const ParameterGroup all = group(private_namespace);
+  misspelt = all.misspelt();
+  for (const Row& row : rows_) row.read(all);
 }
 
 void ParameterTable::change(const XmlRpcValue& changes) const {
@@ -152,7 +158,9 @@ void ParameterTable::change(const XmlRpcValue& changes) const {
   for (const Row& row : live) names.push_back(row.name);
   const ParameterGroup group("~", changes, names);
   for (const std::string& sentence : group.misspelt()) throw ParameterError(sentence);
-  for (const Row& row : live) row.read(group);
+  std::vector<double> values;
+  for (const Row& row : live) values.push_back(row.value_in(group));
+  for (std::size_t i = 0; i < live.size(); ++i) live[i].set_value(values[i]);
 }
 
 std::vector<Row> ParameterTable::live_rows() const {
@@ -182,20 +190,22 @@ void LiveParameters::advertise() {
 /// Serves changes. A changed value also goes to the parameter server. If a value is illegal,
 /// nothing changes, and the log says what is legal.
 bool LiveParameters::on_set(Service::Request& request, Service::Response& response) {
+  std::vector<double> before;
+  for (const Row& parameter : parameters_) before.push_back(parameter.value());
   try {
-    const std::vector<LiveParameter> now = apply_(requested(request.config));
-    for (std::size_t i = 0; i < now.size(); ++i) {
-      if (now[i].value == parameters_[i].value) continue;
-      if (is_flag(now[i])) {
-        private_node_.setParam(now[i].name, now[i].value != 0.0);
-      } else {
-        private_node_.setParam(now[i].name, now[i].value);
-      }
-      ROS_INFO("~%s is %g now", now[i].name.c_str(), now[i].value);
-    }
-    parameters_ = now;
+    apply_(requested(request.config));
   } catch (const ParameterError& error) {
     ROS_WARN("nothing is changed: %s", error.what());
+  }
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    const Row& now = parameters_[i];
+    if (now.value() == before[i]) continue;
+    if (now.is_flag()) {
+      private_node_.setParam(now.name, now.value() != 0.0);
+    } else {
+      private_node_.setParam(now.name, now.value());
+    }
+    ROS_INFO("~%s is %g now", now.name.c_str(), now.value());
   }
   response.config = present(parameters_);
   updates_.publish(response.config);

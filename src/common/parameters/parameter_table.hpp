@@ -4,7 +4,9 @@
 
 #include <functional>
 #include <utility>
+#include <variant>
 
+#include "common/messages/text.hpp"
 #include "parameter_group.hpp"
 
 namespace organ_collision {
@@ -28,12 +30,26 @@ struct HelpEntry {
 class ParameterTable {
  public:
   struct Row : HelpEntry {
-    std::function<void(const ParameterGroup&)> read;  ///< reads the parameter, if it is there
-    XmlRpc::XmlRpcValue::Type type = XmlRpc::XmlRpcValue::TypeInvalid;  ///< of a number or flag
-    double value = 0.0;      ///< its value when the table was made; of a flag, 0 or 1
-    double fallback = 0.0;   ///< its default; set by live_parameters()
-    NumberRange range = {};  ///< its legal values
+    using Read = std::function<void(const ParameterGroup&)>;
+
+    /// The number or flag of PARAMETERS that has the value. Or what reads another kind of parameter
+    /// from the group of all.
+    std::variant<double*, int*, bool*, Read> member;
+    double fallback = 0.0;   ///< the default of a number; of a flag, 0 or 1
+    NumberRange range = {};  ///< the legal values of a number
     bool is_live = false;    ///< it can be changed while the node runs
+
+    bool is_flag() const { return std::holds_alternative<bool*>(member); }
+    bool is_whole() const { return std::holds_alternative<int*>(member); }
+    bool is_number() const { return is_whole() || std::holds_alternative<double*>(member); }
+    /// The present value of a number or flag.
+    double value() const;
+    void set_value(double value) const;
+    /// The value that the group has for a number or flag, or the present one if it has none. Throws
+    /// ParameterError if the value is illegal.
+    double value_in(const ParameterGroup& all) const;
+    /// Reads the parameter, if it is there. Throws ParameterError.
+    void read(const ParameterGroup& all) const;
 
     void live() { is_live = true; }
     HelpEntry help() const;
@@ -48,23 +64,34 @@ class ParameterTable {
   Row& flag(const std::string& name, bool& value, const std::string& text) {
     return number(name, value, {0.0, 1.0}, text);
   }
-  /// Adds a parameter with one of the values `legal`, by default the first one. `set` gets the
-  /// value.
-  void choice(const std::string& name, const std::vector<std::string>& legal,
-              const std::function<void(const std::string&)>& set, const std::string& text);
+  /// Adds a parameter with one of the values that `choices` name, by default the first one. Each of
+  /// `choices` has a `name` and a `value`.
+  template <typename Choices, typename Value>
+  void choice(const std::string& name, Value& value, const Choices& choices,
+              const std::string& text) {
+    std::vector<std::string> legal;
+    for (const auto& choice : choices) legal.emplace_back(choice.name);
+    const auto read = [name, &value, &choices, legal](const ParameterGroup& all) {
+      const std::string chosen = all.choice(name, legal[0], legal);
+      for (const auto& choice : choices) {
+        if (choice.name == chosen) value = choice.value;
+      }
+    };
+    other(name, legal[0] + "; " + listed(legal), read, text);
+  }
   /// Adds a parameter of a kind that none of the functions above can add. `read` reads it from the
   /// group of all parameters. `fallback`: what --help shows as its default.
-  Row& other(const std::string& name, const std::string& fallback,
-             const std::function<void(const ParameterGroup&)>& read, const std::string& text);
+  Row& other(const std::string& name, const std::string& fallback, const Row::Read& read,
+             const std::string& text);
 
   /// The node's parameters as a group. Names that have no row count as misspelt. Throws
   /// ParameterError if `private_namespace` is no group.
   ParameterGroup group(const XmlRpc::XmlRpcValue& private_namespace) const;
-  /// Reads all parameters, or the one with this name alone. A missing parameter keeps its value.
-  /// Throws ParameterError if a value is illegal or a required parameter is missing.
-  void read(const ParameterGroup& all, const std::string& name = {}) const;
-  /// Applies changes while the node runs. Throws ParameterError if a value is illegal, or if a
-  /// parameter cannot be changed then. Some members may have changed before it throws.
+  /// Reads all parameters. A missing parameter keeps its value. `misspelt` gets a sentence for each
+  /// unknown name. Throws ParameterError if a value is illegal or a required parameter is missing.
+  void read(const XmlRpc::XmlRpcValue& private_namespace, std::vector<std::string>& misspelt) const;
+  /// Applies changes while the node runs. Throws ParameterError, and changes nothing, if a value is
+  /// illegal, or if a parameter cannot be changed then.
   void change(const XmlRpc::XmlRpcValue& changes) const;
 
   const std::vector<Row>& rows() const { return rows_; }
@@ -75,29 +102,20 @@ class ParameterTable {
   std::vector<Row> rows_;
 };
 
-/// Reads the parameters of a node from the value of its private namespace. Their member `misspelt`
-/// gets a sentence for each unknown name. Throws ParameterError.
+/// Reads the parameters of a node from the parameter server into `parameters`, which must have
+/// their defaults. Returns their table. Throws ParameterError.
+template <typename Parameters>
+ParameterTable load_parameters(Parameters& parameters, const ros::NodeHandle& private_node) {
+  const ParameterTable table = table_of(parameters);
+  table.read(all_parameters(private_node), parameters.misspelt);
+  return table;
+}
+
+/// The parameters of a node, from the value of its private namespace. Throws ParameterError.
 template <typename Parameters>
 Parameters parse_parameters(const XmlRpc::XmlRpcValue& private_namespace) {
   Parameters parameters;
-  const ParameterTable table = table_of(parameters);
-  const ParameterGroup all = table.group(private_namespace);
-  parameters.misspelt = all.misspelt();
-  table.read(all);
-  return parameters;
-}
-
-/// Reads the parameters of a node from the parameter server. Throws ParameterError.
-template <typename Parameters>
-Parameters load_parameters(const ros::NodeHandle& private_node) {
-  return parse_parameters<Parameters>(all_parameters(private_node));
-}
-
-/// The parameters after the changes. Throws ParameterError if a value is illegal, or if a parameter
-/// cannot be changed while the node runs.
-template <typename Parameters>
-Parameters changed(Parameters parameters, const XmlRpc::XmlRpcValue& changes) {
-  table_of(parameters).change(changes);
+  table_of(parameters).read(private_namespace, parameters.misspelt);
   return parameters;
 }
 
@@ -111,22 +129,6 @@ std::vector<HelpEntry> parameter_help() {
   return entries;
 }
 
-/// A parameter that can be changed while the node runs, with its present value.
-using LiveParameter = ParameterTable::Row;
-
-/// All parameters of a node that can be changed while it runs.
-template <typename Parameters>
-std::vector<LiveParameter> live_parameters(Parameters parameters) {
-  Parameters defaults;
-  std::vector<LiveParameter> live = table_of(parameters).live_rows();
-  const std::vector<LiveParameter> by_default = table_of(defaults).live_rows();
-  for (std::size_t i = 0; i < live.size(); ++i) {
-    live[i].read = {};  // It would write into `parameters`, which end here.
-    live[i].fallback = by_default[i].value;
-  }
-  return live;
-}
-
 /// The interface of dynamic_reconfigure, for dynparam and rqt_reconfigure. All its work is done in
 /// the thread that calls the callbacks of the node handle.
 ///
@@ -135,13 +137,11 @@ std::vector<LiveParameter> live_parameters(Parameters parameters) {
 /// the start.
 class LiveParameters {
  public:
-  /// Applies changes, which are a group of new values by name. Returns all live parameters with
-  /// their present values. Throws ParameterError, and changes nothing, if a new value is illegal.
-  using Apply = std::function<std::vector<LiveParameter>(const XmlRpc::XmlRpcValue& changes)>;
+  /// Applies changes, which are a group of new values by name, with ParameterTable::change().
+  using Apply = std::function<void(const XmlRpc::XmlRpcValue& changes)>;
 
-  LiveParameters(const ros::NodeHandle& private_node, std::vector<LiveParameter> parameters,
-                 Apply apply)
-      : private_node_(private_node), parameters_(std::move(parameters)), apply_(std::move(apply)) {}
+  LiveParameters(const ros::NodeHandle& private_node, const ParameterTable& table, Apply apply)
+      : private_node_(private_node), parameters_(table.live_rows()), apply_(std::move(apply)) {}
 
   /// Publishes the parameters, and serves changes. From now on, `apply` may be called at any time.
   void advertise();
@@ -154,7 +154,7 @@ class LiveParameters {
   bool on_set(Service::Request& request, Service::Response& response);
 
   ros::NodeHandle private_node_;
-  std::vector<LiveParameter> parameters_;
+  const std::vector<ParameterTable::Row> parameters_;
   Apply apply_;
   ros::Publisher descriptions_, updates_;
   ros::ServiceServer server_;

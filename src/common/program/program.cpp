@@ -4,21 +4,11 @@
 #include <ros/init.h>
 #include <ros/master.h>
 #include <ros/this_node.h>
-#include <ros/xmlrpc_manager.h>
-#include <xmlrpcpp/XmlRpcException.h>
 
 #include <algorithm>
 #include <exception>
 #include <iostream>
 #include <sstream>
-
-namespace ros::param {
-
-/// roscpp's own answer to `paramUpdate`. The library exports it, but no header declares it.
-// NOLINTNEXTLINE(readability-identifier-naming)
-void paramUpdateCallback(XmlRpc::XmlRpcValue& params, XmlRpc::XmlRpcValue& result);
-
-}  // namespace ros::param
 
 namespace organ_collision {
 namespace {
@@ -50,6 +40,10 @@ std::string section(const std::string& title, const std::vector<HelpEntry>& entr
 
 const ros::WallDuration kMasterPeriod(1.0);
 
+// What is known of the ROS master.
+constexpr char kListed[] = "listed";
+constexpr char kNoAnswer[] =
+    "the ROS master does not answer; nodes that are connected go on, and new ones cannot connect";
 constexpr char kNotListed[] =
     "the ROS master does not list this node any more, as after a restart of the master: new nodes "
     "cannot connect to it. Restart the node";
@@ -85,12 +79,10 @@ std::optional<int> answer_arguments(int argc, char** argv, const ProgramHelp& he
 }
 
 int run_program(int argc, char** argv, const ProgramHelp& help, const std::string& name,
-                const std::function<void(const ros::NodeHandle& node,
-                                         const ros::NodeHandle& private_node)>& run,
+                void (*run)(const ros::NodeHandle& node, const ros::NodeHandle& private_node),
                 std::uint32_t options) {
   if (const auto exit_code = answer_arguments(argc, argv, help)) return *exit_code;
   ros::init(argc, argv, name, options);
-  guard_parameter_updates();
   const ros::NodeHandle node;  // Without any node handle, ROS_FATAL below would not reach /rosout.
   try {
     run(node, ros::NodeHandle("~"));
@@ -101,22 +93,9 @@ int run_program(int argc, char** argv, const ProgramHelp& help, const std::strin
   return 0;
 }
 
-void guard_parameter_updates() {
-  constexpr char kMethod[] = "paramUpdate";
-  const ros::XMLRPCManagerPtr& manager = ros::XMLRPCManager::instance();
-  manager->unbind(kMethod);
-  manager->bind(kMethod, [](XmlRpc::XmlRpcValue& params, XmlRpc::XmlRpcValue& result) {
-    try {
-      ros::param::paramUpdateCallback(params, result);
-    } catch (const std::exception& error) {
-      throw XmlRpc::XmlRpcException(error.what());
-    }
-  });
-}
-
 Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
                          double period_sec)
-    : updater_(node, private_node, private_node.getNamespace()) {
+    : updater_(node, private_node, private_node.getNamespace()), master_(kListed) {
   updater_.setHardwareID("none");
   updater_.add("master", [this](auto& status) { diagnose_master(status); });
   // The updater's own timer follows simulated time, and would stop when simulated time stops.
@@ -131,30 +110,20 @@ Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& pri
 /// answers would mislead: a topic that registers after the restart, such as that of a new tool,
 /// makes the master list the node again, but without its older topics.
 void Diagnostics::ask_master() {
-  if (master_ == Master::kForgotNode) return;
+  if (master_ == kNotListed) return;
   XmlRpc::XmlRpcValue arguments, response, uri;
   arguments[0] = arguments[1] = ros::this_node::getName();
   const bool is_listed = ros::master::execute("lookupNode", arguments, response, uri, false);
   if (ros::isShuttingDown()) return;
-  const bool is_answered = response.valid();
-  master_ = is_listed     ? Master::kListsNode
-            : is_answered ? Master::kForgotNode
-                          : Master::kDoesNotAnswer;
-  if (master_ == Master::kForgotNode) ROS_ERROR("%s", kNotListed);
+  master_ = is_listed ? kListed : response.valid() ? kNotListed : kNoAnswer;
+  if (master_ == kNotListed) ROS_ERROR("%s", kNotListed);
 }
 
 void Diagnostics::diagnose_master(diagnostic_updater::DiagnosticStatusWrapper& status) const {
   using diagnostic_msgs::DiagnosticStatus;
-  if (master_ == Master::kListsNode) {
-    status.summary(DiagnosticStatus::OK, "listed");
-  } else if (master_ == Master::kForgotNode) {
-    status.summary(DiagnosticStatus::ERROR, kNotListed);
-  } else {
-    status.summary(
-        DiagnosticStatus::WARN,
-        "the ROS master at " + ros::master::getURI() +
-            " does not answer; nodes that are connected go on, and new ones cannot connect");
-  }
+  const char* const master = master_;
+  const auto fault = master == kNotListed ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN;
+  status.summary(master == kListed ? DiagnosticStatus::OK : fault, master);
 }
 
 }  // namespace organ_collision

@@ -7,7 +7,6 @@
 
 #include <atomic>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -51,15 +50,8 @@ std::string service_type() {
 /// starts ROS, calls `run`, and logs an exception that `run` throws. Returns the exit code. `name`:
 /// the node's default name. `options`: flags of ros::init_options.
 int run_program(int argc, char** argv, const ProgramHelp& help, const std::string& name,
-                const std::function<void(const ros::NodeHandle& node,
-                                         const ros::NodeHandle& private_node)>& run,
+                void (*run)(const ros::NodeHandle& node, const ros::NodeHandle& private_node),
                 std::uint32_t options = 0);
-
-/// Protects this process from a call `paramUpdate` whose parameter has an illegal name: roscpp
-/// throws InvalidNameException in its XML-RPC thread, where nobody catches it, and the process
-/// ends. From now on, the caller gets a fault. To be called after ros::init(). run_program() calls
-/// it.
-void guard_parameter_updates();
 
 /// What a node publishes on /diagnostics: the tasks that its parts add, and whether the ROS master
 /// still lists this process. A restarted master does not list it, because roscpp does not register
@@ -73,12 +65,11 @@ class Diagnostics {
   diagnostic_updater::Updater& updater() { return updater_; }
 
  private:
-  enum class Master { kListsNode, kDoesNotAnswer, kForgotNode };
   void ask_master();
   void diagnose_master(diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
   diagnostic_updater::Updater updater_;
-  std::atomic<Master> master_{Master::kListsNode};
+  std::atomic<const char*> master_;  ///< what is known of the master
   QueueThread asking_;
   ros::WallTimer publish_, ask_;
 };

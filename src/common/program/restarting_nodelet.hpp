@@ -3,24 +3,23 @@
 #include <nodelet/nodelet.h>
 #include <ros/init.h>
 
-#include <atomic>
 #include <exception>
 #include <future>
 #include <thread>
 #include <utility>
 
-#include "program.hpp"
+#include "run_control.hpp"
 
 namespace organ_collision {
 
 /// A node in a nodelet manager: messages of the same process arrive without copies. The node works
-/// in a thread of its own. If it breaks down, it is started again. `Node` has the functions of
-/// CollisionNode.
-template <typename Node>
+/// in a thread of its own. If it breaks down, it is started again. `kRun` runs the node.
+template <void (*kRun)(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
+                       const RunControl& control)>
 class RestartingNodelet : public nodelet::Nodelet {
  public:
   ~RestartingNodelet() override {
-    stop_ = true;
+    control_.stop = true;
     if (worker_.joinable()) worker_.join();
   }
 
@@ -32,7 +31,6 @@ class RestartingNodelet : public nodelet::Nodelet {
   /// Returns when the node works. If it cannot be constructed, throws its exception, so that
   /// loading the nodelet fails.
   void onInit() override {
-    guard_parameter_updates();
     std::promise<void> ready;
     std::future<void> outcome = ready.get_future();
     // The promise moves to the worker, which may still use it when this function has returned.
@@ -43,11 +41,13 @@ class RestartingNodelet : public nodelet::Nodelet {
   /// Runs the node. If it breaks down, it is started again; the manager and its other nodelets keep
   /// running. `ready` gets the outcome of the first start.
   void work(std::promise<void>& ready) {
-    for (bool is_first = true; is_first || !is_to_stop();) {
+    bool is_first = true;
+    control_.ready = [&] {
+      if (std::exchange(is_first, false)) ready.set_value();
+    };
+    while (is_first || !is_to_stop()) {
       try {
-        Node node(getNodeHandle(), getPrivateNodeHandle());
-        if (std::exchange(is_first, false)) ready.set_value();
-        return node.run([this] { return is_to_stop(); });
+        return kRun(getNodeHandle(), getPrivateNodeHandle(), control_);
       } catch (const std::exception& error) {
         if (is_first) {
           NODELET_FATAL("%s", error.what());
@@ -60,9 +60,9 @@ class RestartingNodelet : public nodelet::Nodelet {
     }
   }
 
-  bool is_to_stop() const { return stop_ || !ros::ok(); }
+  bool is_to_stop() const { return control_.stop || !ros::ok(); }
 
-  std::atomic<bool> stop_{false};
+  RunControl control_;
   std::thread worker_;
 };
 

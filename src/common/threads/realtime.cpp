@@ -128,7 +128,8 @@ void Realtime::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   for (const std::string& refusal : refusals_) status.mergeSummary(DiagnosticStatus::WARN, refusal);
 }
 
-void make_ros_realtime(const ros::NodeHandle& node, int priority) {
+void make_ros_realtime(const ros::NodeHandle& node, const ros::NodeHandle& private_node) {
+  const int priority = private_node.param(kRealtimePriority, 0);
   if (priority == 0) return;
   // roscpp starts its timer thread with the first timer, and keeps it when that timer ends.
   node.createTimer(ros::Duration(1.0), [](const ros::TimerEvent&) {});

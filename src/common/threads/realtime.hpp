@@ -48,9 +48,12 @@ class Realtime {
   std::vector<std::string> refusals_;  ///< sentences, each with what to do about it
 };
 
-/// Gives a priority to roscpp's threads, through which messages and ticks come. All threads that
-/// the process has now get it. So it is meant for programs with one node, before they construct
-/// that node. 0: does nothing.
-void make_ros_realtime(const ros::NodeHandle& node, int priority);
+/// The parameter with the priority.
+inline constexpr char kRealtimePriority[] = "realtime_priority";
+
+/// Gives the priority of the parameter to roscpp's threads, through which messages and ticks come.
+/// All threads that the process has now get it. So it is meant for programs with one node, before
+/// they construct that node. 0, or an illegal value: does nothing.
+void make_ros_realtime(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
 
 }  // namespace organ_collision

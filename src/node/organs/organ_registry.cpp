@@ -59,7 +59,7 @@ bool OrganRegistry::is_new(const OrganMesh& message, const Connection& connectio
 }
 
 OrganChange OrganRegistry::apply(const OrganMeshConstPtr& pointer, const Connection& connection,
-                                 ros::Time now, const std::function<TriangleMesh()>& built) {
+                                 ros::Time now, const Build& built) {
   const OrganMesh& message = *pointer;
   if (message.organ.empty()) refuse("empty name", "organ mesh without a name in `organ`");
   check_name("organ", message.organ);
@@ -97,8 +97,7 @@ OrganChange OrganRegistry::apply(const OrganMeshConstPtr& pointer, const Connect
 }
 
 OrganChange OrganRegistry::set_shape(const OrganMeshConstPtr& pointer, const Connection& connection,
-                                     const std::string& frame, ros::Time now,
-                                     const std::function<TriangleMesh()>& built) {
+                                     const std::string& frame, ros::Time now, const Build& built) {
   const OrganMesh& message = *pointer;
   const ros::Time stamp = message.header.stamp;
   const auto known = organs_.find(message.organ);

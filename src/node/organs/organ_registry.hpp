@@ -37,6 +37,8 @@ class OrganRegistry {
   explicit OrganRegistry(const MeshLimits& limits, double max_ahead_sec = kMaxAheadDefault)
       : limits_(limits), max_ahead_sec_(max_ahead_sec) {}
 
+  using Build = std::function<TriangleMesh()>;
+
   /// Builds the surface that a mesh message describes. Throws MeshError. Any thread may call it.
   TriangleMesh build(const OrganMeshConstPtr& message) const;
 
@@ -52,7 +54,7 @@ class OrganRegistry {
   /// same organ and type of message, and that connection is closed. If that connection is still
   /// open, a warning says that the organ has two senders.
   OrganChange apply(const OrganMeshConstPtr& message, const Connection& connection, ros::Time now,
-                    const std::function<TriangleMesh()>& built);
+                    const Build& built);
   OrganChange apply(const OrganMeshConstPtr& message, ros::Time now) {
     return apply(message, {}, now, [&] { return build(message); });
   }
@@ -81,8 +83,7 @@ class OrganRegistry {
 
  private:
   OrganChange set_shape(const OrganMeshConstPtr& message, const Connection& connection,
-                        const std::string& frame, ros::Time now,
-                        const std::function<TriangleMesh()>& built);
+                        const std::string& frame, ros::Time now, const Build& built);
   bool note_sender(DeformableOrgan& organ, Senders::Stream stream, const Connection& connection,
                    ros::Time now);
   void check_stamp(ros::Time stamp, ros::Time now, const std::string& named) const;

@@ -275,14 +275,13 @@ void add_tools(ParameterTable& t, OrganNodeParameters& p, const std::string& tex
 }
 
 void add_picker(ParameterTable& t, PickerSettings& p) {
-  t.choice(
-      "picker", {"feedback", "select", "cpu"},
-      [&p](const std::string& name) { p.kind = picker_kind(name); },
-      "how faces are picked: by GL_FEEDBACK, by GL_SELECT (as in the 1999 paper; slow only in the "
-      "paper's modes, where it draws all faces), or without OpenGL");
-  t.choice(
-      "gl", {"auto", "osmesa", "egl"}, [&p](const std::string& name) { p.gl = gl_platform(name); },
-      "where the OpenGL for picking comes from. auto: OSMesa where there is one, else EGL");
+  std::string how = "how faces are picked";
+  for (const PickerName& picker : kPickerNames) {
+    how.append(". ").append(picker.name).append(": ").append(picker.about);
+  }
+  t.choice("picker", p.kind, kPickerNames, how);
+  t.choice("gl", p.gl, kGlPlatformNames,
+           "where the OpenGL for picking comes from. auto: OSMesa where there is one, else EGL");
 }
 
 void add_limits(ParameterTable& t, OrganNodeParameters& p) {
@@ -307,7 +306,7 @@ void add_marker_rates(ParameterTable& t, MarkerSettings& p) {
 
 void add_realtime(ParameterTable& t, RealtimeParameters& p, const std::string& threads) {
   t.number(
-      "realtime_priority", p.priority, {0, 99},
+      kRealtimePriority, p.priority, {0, 99},
       "1 to 99: " + threads +
           " under SCHED_FIFO with this priority, before ordinary programs. 0: ordinary scheduling");
   t.flag("lock_memory", p.lock_memory, "true: all memory of the process stays in RAM");

@@ -106,8 +106,18 @@ void TouchTracker::end_all(const std::string& reason) {
   }
 }
 
-void TouchTracker::forget(const std::function<bool(const OrganAndTool& pair)>& is_gone,
-                          const std::string& reason) {
+void TouchTracker::forget_organ(const std::string& organ, const std::string& reason) {
+  forget([&](const OrganAndTool& pair) { return pair.first == organ; }, reason);
+}
+
+void TouchTracker::forget_other_tools(const std::set<std::string>& tools,
+                                      const std::string& reason) {
+  forget([&](const OrganAndTool& pair) { return tools.count(pair.second) == 0; }, reason);
+}
+
+/// Ends the touches of those pairs that `is_gone`, and forgets the pairs.
+template <typename IsGone>
+void TouchTracker::forget(const IsGone& is_gone, const std::string& reason) {
   for (auto at = pairs_.begin(); at != pairs_.end();) {
     auto& [key, pair] = *at;
     if (!is_gone(key)) {

@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <unordered_set>
 #include <utility>
@@ -33,9 +34,10 @@ class TouchTracker {
   void follow(const ContactArray& answer, Time now);
   /// Ends the touches of all tools and organs, with the stamp of their last answer.
   void end_all(const std::string& reason);
-  /// Ends the touches of those pairs of organ and tool that `is_gone`, and forgets the pairs.
-  void forget(const std::function<bool(const OrganAndTool& pair)>& is_gone,
-              const std::string& reason);
+  // These end touches, too, and forget the pairs of organ and tool.
+  void forget_organ(const std::string& organ, const std::string& reason);
+  /// `tools`: the names of those that are not forgotten.
+  void forget_other_tools(const std::set<std::string>& tools, const std::string& reason);
 
  private:
   /// What is known of a pair of organ and tool.
@@ -51,6 +53,8 @@ class TouchTracker {
     std::size_t earlier_faces = 0;            ///< number of touched faces of earlier triangles
   };
 
+  template <typename IsGone>
+  void forget(const IsGone& is_gone, const std::string& reason);
   void fail(Pair& pair, Time now);
   void begin(const ContactArray& answer, Pair& pair);
   void end(Pair& pair, ros::Time stamp, const std::string& reason);

@@ -54,8 +54,8 @@ CollisionPipeline::CollisionPipeline(const NodeParameters& parameters,
           parameters, rejected, [this](std::size_t tool) { steps.add_pose(tool); }, threads),
       poses(inbox.transforms, {parameters.motion_sample_sec, parameters.motion_samples_max}),
       workers(parameters),
-      steps(parameters, tools, inbox.organs, poses, workers, std::move(callbacks.step)),
-      update_(std::move(callbacks.update)) {}
+      steps(parameters, tools, inbox.organs, poses, workers, callbacks.step),
+      callbacks_(std::move(callbacks)) {}
 
 bool CollisionPipeline::watch_clock() {
   if (!inbox.watch_clock()) return false;
@@ -66,7 +66,7 @@ bool CollisionPipeline::watch_clock() {
 void CollisionPipeline::apply_organ_messages(SteadyTime now) {
   while (const auto update = inbox.intake.next()) {
     steps.add(*update, now);
-    update_(*update);
+    callbacks_.update(*update);
   }
 }
 

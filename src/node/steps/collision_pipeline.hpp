@@ -76,7 +76,7 @@ class CollisionPipeline {
   StepScheduler steps;
 
  private:
-  std::function<void(const OrganUpdate&)> update_;
+  const Callbacks callbacks_;
 };
 
 }  // namespace organ_collision

@@ -125,8 +125,7 @@ std::vector<Tool> load_tools(const std::vector<ToolParameters>& parameters,
   return tools;
 }
 
-Tool load_tool(const ToolParameters& parameters,
-               const std::function<std::string(const std::string& parameter)>& find_text) {
+Tool load_tool(const ToolParameters& parameters, const FindText& find_text) {
   Tool tool;
   tool.parameters = parameters;
   if (parameters.links.empty()) return tool;

@@ -64,11 +64,13 @@ inline constexpr char kNoTools[] =
     "~tools is empty: no contacts are published, and only queries that give a motion are answered; "
     "set ~tools and call ~reload_tools, or start the node anew";
 
+/// Returns the value of a parameter, or throws ToolError.
+using FindText = std::function<std::string(const std::string& parameter)>;
+
 /// Loads the links of a tool from its URDF, which is a file or the value of a parameter. Does not
 /// throw if the description is bad: the tool then has a `fault`, a sentence that begins with the
-/// tool's name. `find_text` returns the value of a parameter, or throws ToolError.
-Tool load_tool(const ToolParameters& parameters,
-               const std::function<std::string(const std::string& parameter)>& find_text);
+/// tool's name.
+Tool load_tool(const ToolParameters& parameters, const FindText& find_text);
 
 /// Loads all tools of a node. Parameters are searched in the node's private namespace and upwards
 /// from there.

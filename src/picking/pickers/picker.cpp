@@ -57,25 +57,31 @@ std::unique_ptr<Picker> checked(std::unique_ptr<Picker> picker) {
       "; install another version of Mesa, or pick without OpenGL (picker: cpu)");
 }
 
+/// The value of the choice with this name. `setting`: what is chosen.
+template <typename Choices>
+auto named(const std::string& setting, const Choices& choices, const std::string& name) {
+  std::string legal;
+  for (const auto& choice : choices) {
+    if (name == choice.name) return choice.value;
+    legal += (legal.empty() ? "\"" : ", \"") + std::string(choice.name) + "\"";
+  }
+  throw std::invalid_argument(setting + " is \"" + name + "\": must be one of " + legal);
+}
+
 }  // namespace
 
 std::unique_ptr<Picker> make_picker(const PickerSettings& settings) {
   return checked(new_picker(settings));
 }
 
-PickerKind picker_kind(const std::string& name) {
-  if (name == "feedback") return PickerKind::kFeedback;
-  if (name == "select") return PickerKind::kSelect;
-  if (name == "cpu") return PickerKind::kCpu;
-  throw std::invalid_argument("picker is \"" + name +
-                              "\": must be \"feedback\", \"select\" or \"cpu\"");
+std::vector<PickerKind> picker_kinds() {
+  std::vector<PickerKind> kinds;
+  for (const PickerName& picker : kPickerNames) kinds.push_back(picker.value);
+  return kinds;
 }
 
-GlPlatform gl_platform(const std::string& name) {
-  if (name == "auto") return GlPlatform::kAuto;
-  if (name == "osmesa") return GlPlatform::kOsmesa;
-  if (name == "egl") return GlPlatform::kEgl;
-  throw std::invalid_argument("gl is \"" + name + "\": must be \"auto\", \"osmesa\" or \"egl\"");
-}
+PickerKind picker_kind(const std::string& name) { return named("picker", kPickerNames, name); }
+
+GlPlatform gl_platform(const std::string& name) { return named("gl", kGlPlatformNames, name); }
 
 }  // namespace organ_collision

@@ -34,14 +34,14 @@ class ParameterTableTest : public testing::Test {
 
   /// This value, as a parameter of the row's type.
   static XmlRpcValue typed(const ParameterTable::Row& row, double value) {
-    if (row.type == XmlRpcValue::TypeBoolean) return value != 0.0;
-    if (row.type == XmlRpcValue::TypeInt) return static_cast<int>(value);
+    if (row.is_flag()) return value != 0.0;
+    if (row.is_whole()) return static_cast<int>(value);
     return value;
   }
 
   /// A legal value that is not the default.
   static double other_value(const ParameterTable::Row& row) {
-    if (row.type == XmlRpcValue::TypeBoolean) return 1.0 - row.value;
+    if (row.is_flag()) return 1.0 - row.value();
     return std::isinf(row.range.highest) ? row.range.lowest + 0.75 : row.range.highest;
   }
 
@@ -50,7 +50,7 @@ class ParameterTableTest : public testing::Test {
     XmlRpcValue list;
     list.setSize(1);
     std::vector<XmlRpcValue> illegal{"text", list};
-    if (row.type == XmlRpcValue::TypeBoolean) {
+    if (row.is_flag()) {
       illegal.emplace_back(1);
       return illegal;
     }
@@ -74,17 +74,18 @@ TYPED_TEST_SUITE_P(ParameterTableTest);
 TYPED_TEST_P(ParameterTableTest, EveryNumberAndFlagIsTakenOrNamed) {
   for (const ParameterTable::Row& row : this->table_.rows()) {
     EXPECT_FALSE(row.text.empty()) << row.name;
-    if (row.type == XmlRpc::XmlRpcValue::TypeInvalid) continue;
+    if (!row.is_flag() && !row.is_number()) continue;
     XmlRpc::XmlRpcValue all = legal_parameters<TypeParam>();
     const double other = this->other_value(row);
-    EXPECT_NE(other, row.value) << row.name;
+    EXPECT_NE(other, row.value()) << row.name;
     all[row.name] = this->typed(row, other);
     TypeParam taken = parse_parameters<TypeParam>(all);
     EXPECT_TRUE(taken.misspelt.empty()) << row.name;
     const ParameterTable table = table_of(taken);
     for (std::size_t i = 0; i < table.rows().size(); ++i) {
       const ParameterTable::Row& now = table.rows()[i];
-      EXPECT_EQ(now.value, now.name == row.name ? other : this->table_.rows()[i].value) << now.name;
+      EXPECT_EQ(now.value(), now.name == row.name ? other : this->table_.rows()[i].value())
+          << now.name;
     }
     if (row.range.lowest_is_legal) {
       EXPECT_EQ(refusal_of<TypeParam>(row.name, this->typed(row, row.range.lowest)), "accepted");
@@ -97,21 +98,30 @@ TYPED_TEST_P(ParameterTableTest, EveryNumberAndFlagIsTakenOrNamed) {
 }
 
 TYPED_TEST_P(ParameterTableTest, OnlyLiveOnesCanBeChangedAndTheRestStays) {
-  if (live_parameters(this->defaults_).empty()) return;  // The node serves no changes.
+  const std::vector<ParameterTable::Row> live = this->table_.live_rows();
+  if (live.empty()) return;  // The node serves no changes.
   for (const ParameterTable::Row& row : this->table_.rows()) {
-    const double other = this->other_value(row);
     XmlRpc::XmlRpcValue change;
-    change[row.name] = this->typed(row, other);
+    change[row.name] = this->typed(row, this->other_value(row));
     if (!row.is_live) {
-      EXPECT_THROW(changed(this->defaults_, change), ParameterError) << row.name;
+      EXPECT_THROW(this->table_.change(change), ParameterError) << row.name;
       continue;
     }
-    for (const LiveParameter& now : live_parameters(changed(this->defaults_, change))) {
-      EXPECT_EQ(now.value, now.name == row.name ? other : now.fallback) << now.name;
+    TypeParam parameters;
+    const ParameterTable table = table_of(parameters);
+    table.change(change);
+    for (const ParameterTable::Row& now : table.live_rows()) {
+      EXPECT_EQ(now.value(), now.name == row.name ? this->other_value(row) : now.fallback)
+          << now.name;
+    }
+    // A change with an illegal value changes nothing, also not the parameters before it.
+    for (const ParameterTable::Row& other : live) {
+      change[other.name] = this->typed(other, this->other_value(other));
     }
     for (const XmlRpc::XmlRpcValue& illegal : this->illegal_values(row)) {
       change[row.name] = illegal;
-      EXPECT_THROW(changed(this->defaults_, change), ParameterError) << row.name;
+      EXPECT_THROW(this->table_.change(change), ParameterError) << row.name;
+      for (const ParameterTable::Row& kept : live) EXPECT_EQ(kept.value(), kept.fallback);
     }
   }
 }

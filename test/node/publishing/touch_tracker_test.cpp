@@ -157,9 +157,9 @@ TEST_F(TouchTrackerTest, EndsOfOtherReasonsHaveTheStampOfTheLastAnswer) {
   kidney.organ = "kidney";
   follow(kidney);
   EXPECT_EQ(told(), (Texts{"BEGIN 2 3 of 1", "BEGIN 1 3 of 4"})) << "each pair counts its own";
-  touches_.forget([](const auto& pair) { return pair.first == "liver"; }, "organ removed");
+  touches_.forget_organ("liver", "organ removed");
   EXPECT_EQ(told(), Texts{"END 2 3 of 1: 0 s, 1 mm, 1 faces organ removed"});
-  touches_.forget([](const auto& pair) { return pair.second == "saw"; }, "tools changed");
+  touches_.forget_other_tools({"hook"}, "tools changed");
   EXPECT_EQ(told(), Texts());
   follow(answer(4.0, {contact(1, 4.0, 0.001)}));
   EXPECT_EQ(told(), Texts{"BEGIN 1 4 of 1"}) << "a forgotten pair begins anew";

@@ -206,7 +206,7 @@ TEST(ContactQuery, ARequestWithoutAnswerBecomesAStatus) {
   request.organ = &face;
   request.path = {{0.0, {{0.0, 0.0, 1.0}, {0.1, 0.0, -0.5}}}};
   request.radius = 0.01;
-  for (const PickerKind kind : {PickerKind::kFeedback, PickerKind::kSelect, PickerKind::kCpu}) {
+  for (const PickerKind kind : picker_kinds()) {
     ContactQuery query{kind};
     ContactArray answer;
     EXPECT_GT(query.evaluate(request, answer), 0.0);

@@ -168,18 +168,19 @@ TEST_P(PickerTest, PicksTheSameOnBothPlatformsBitForBit) {
 }
 
 TEST(PickerSettings, HaveNames) {
-  EXPECT_EQ(picker_kind("feedback"), PickerKind::kFeedback);
-  EXPECT_EQ(picker_kind("select"), PickerKind::kSelect);
-  EXPECT_EQ(picker_kind("cpu"), PickerKind::kCpu);
-  EXPECT_EQ(gl_platform("auto"), GlPlatform::kAuto);
-  EXPECT_EQ(gl_platform("osmesa"), GlPlatform::kOsmesa);
-  EXPECT_EQ(gl_platform("egl"), GlPlatform::kEgl);
+  EXPECT_EQ(kPickerNames[0].value, PickerSettings().kind);
+  EXPECT_EQ(kGlPlatformNames[0].value, PickerSettings().gl);
+  for (const PickerName& picker : kPickerNames) {
+    EXPECT_EQ(picker_kind(picker.name), picker.value);
+    EXPECT_NE(make_picker({picker.value}), nullptr);
+  }
+  for (const GlPlatformName& gl : kGlPlatformNames) EXPECT_EQ(gl_platform(gl.name), gl.value);
   for (const char* name : {"", "Feedback", "both", "GPU"}) {
     const std::string quoted = std::string("\"") + name + "\"";
     expect_words(refusal_by<std::invalid_argument>([&] { picker_kind(name); }),
-                 {quoted, "\"feedback\", \"select\" or \"cpu\""});
+                 {quoted, R"("feedback", "select", "cpu")"});
     expect_words(refusal_by<std::invalid_argument>([&] { gl_platform(name); }),
-                 {quoted, "\"auto\", \"osmesa\" or \"egl\""});
+                 {quoted, R"("auto", "osmesa", "egl")"});
   }
 }
 
