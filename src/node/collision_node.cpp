@@ -7,7 +7,7 @@
 #include <set>
 
 #include "common/messages/text.hpp"
-#include "node/steps/contact_array.hpp"
+#include "node/steps/question.hpp"
 #include "organ_collision/ros/names.hpp"
 
 namespace organ_collision {
@@ -113,7 +113,7 @@ void CollisionNode::publish(const ToolStep& step) {
 void CollisionNode::watch_ends(const ToolStep& step) {
   const ToolParameters& tool = core_.tools()[step.tool].parameters;
   const auto doubt =
-      swaps_[step.tool].follow(tool, step.request.path, std::chrono::steady_clock::now());
+      swaps_[step.tool].follow(tool, step.question.sampled.path, std::chrono::steady_clock::now());
   if (!doubt) return;
   const TransformBuffer& transforms = pipeline_.inbox.transforms;
   const bool is_one_body =

@@ -10,6 +10,8 @@ namespace {
 /// [m] The radius of a middle line, and of a shaft that is made as thin as its axis.
 constexpr double kAxisRadius = 1e-6;
 
+constexpr QueryOptions kPlacement{QueryMode::kStatic, false, 0.0, 0, false, true};
+
 /// The middle line of a part: the segment through the middle of its box, along the longest side.
 LinkPart middle_line(const LinkPart& part) {
   const OrientedBox& box = part.bounds;
@@ -44,17 +46,18 @@ void Tissue::touch(const std::vector<ToolPose>& way, double growth,
                    std::vector<TissueContact>& contacts, Organs organs) {
   contacts.clear();
   grow(growth);
-  const bool is_static = way.size() == 1;
   for (std::size_t organ = 0; organ < organs_->size(); ++organ) {
     const OrganTick& tick = (*organs_)[organ];
-    CollisionRequest question = request(tick, is_static ? QueryMode::kStatic : QueryMode::kSwept);
-    question.path = {waypoint(0.0, organs == Organs::kMove ? tick.T_before : tick.T_now, way[0])};
+    const bool moves = organs == Organs::kMove;
+    ToolPath path = {waypoint(0.0, moves ? tick.T_before : tick.T_now, way[0])};
     for (std::size_t i = 1; i < way.size(); ++i) {
       const double fraction = static_cast<double>(i) / static_cast<double>(way.size() - 1);
-      question.path.push_back(waypoint(fraction, tick.T_now, way[i]));
+      path.push_back(waypoint(fraction, tick.T_now, way[i]));
     }
-    if (organs == Organs::kMove && tick.before != tick.now) question.organ_before = tick.before;
-    query_.evaluate(question, result_);
+    const QueryMode mode = path.size() == 1 ? QueryMode::kStatic : QueryMode::kSwept;
+    query_.evaluate(make_request({tick.now, moves ? tick.before : nullptr}, grown_tool(), {mode},
+                                 std::move(path)),
+                    result_);
     const Eigen::Isometry3d T_proxy_organ = tick.T_now.inverse();
     for (const FaceContact& found : result_.contacts) {
       TissueContact contact{organ, found, growth_of(found.link) - found.depth};
@@ -69,12 +72,10 @@ void Tissue::touch(const std::vector<ToolPose>& way, double growth,
 bool Tissue::is_inside(const ToolPose& pose, const Eigen::Vector3d& point) {
   grow(0.0);
   return std::any_of(organs_->begin(), organs_->end(), [&](const OrganTick& organ) {
-    CollisionRequest question = request(organ, QueryMode::kStatic);
-    question.path = {waypoint(0.0, organ.T_now, pose)};
-    question.placement = true;
-    question.surface_topology = organ.topology;
-    question.tip = organ.T_now * point;
-    query_.evaluate(question, result_);
+    CollisionRequest request = make_request({organ.now, {}, {}, {}, organ.topology}, grown_tool(),
+                                            kPlacement, {waypoint(0.0, organ.T_now, pose)});
+    request.tip = organ.T_now * point;
+    query_.evaluate(request, result_);
     const AxisPlacement& placement = result_.placement;
     return placement.tip == Side::kInside || placement.trocar == Side::kInside ||
            !placement.crossings.empty();
@@ -86,11 +87,9 @@ std::vector<ProxyCrossing> Tissue::cross(const ShaftAxis& axis) {
   grow(least_growth());
   for (std::size_t organ = 0; organ < organs_->size(); ++organ) {
     const Eigen::Isometry3d& T_organ_proxy = (*organs_)[organ].T_now;
-    CollisionRequest question = request((*organs_)[organ], QueryMode::kStatic);
-    question.links = nullptr;
-    question.path = {waypoint(0.0, T_organ_proxy, {axis, {}, {}})};
-    question.placement = true;
-    query_.evaluate(question, result_);
+    query_.evaluate(make_request({(*organs_)[organ].now}, {radius_}, kPlacement,
+                                 {waypoint(0.0, T_organ_proxy, {axis, {}, {}})}),
+                    result_);
     for (const AxisCrossing& found : result_.placement.crossings) {
       crossings.push_back({organ, found.face, found.barycentric, found.shaft,
                            T_organ_proxy.inverse() * found.point, Eigen::Vector3d::Zero()});
@@ -118,15 +117,8 @@ double Tissue::growth_of(std::int32_t link) const {
   return growth_ < 0.0 ? kAxisRadius : growth_;
 }
 
-/// A request about an organ that rests in its present shape. The caller adds the tool's path.
-CollisionRequest Tissue::request(const OrganTick& organ, QueryMode mode) const {
-  CollisionRequest request;
-  request.organ = organ.now;
-  request.radius = radius_;
-  const std::vector<Link>& links = growth_ < 0.0 ? middle_lines_ : grown_links_;
-  request.links = links.empty() ? nullptr : &links;
-  request.mode = mode;
-  return request;
+AskedTool Tissue::grown_tool() const {
+  return {radius_, growth_ < 0.0 ? &middle_lines_ : &grown_links_};
 }
 
 }  // namespace organ_collision

@@ -5,6 +5,7 @@
 
 #include "organ_collision/query/collision_query.hpp"
 #include "organ_collision/query/haptic_proxy.hpp"
+#include "query/make_request.hpp"
 
 namespace organ_collision {
 
@@ -63,7 +64,7 @@ class Tissue {
  private:
   void grow(double growth);
   double growth_of(std::int32_t link) const;
-  CollisionRequest request(const OrganTick& organ, QueryMode mode) const;
+  AskedTool grown_tool() const;
 
   const ProxyTool& tool_;
   double growth_ = 0.0;  ///< [m]
