@@ -140,14 +140,6 @@ std::size_t index_of(const NodeState& node, const std::string& name) {
                       (names.empty() ? "the node has none" : "known are " + quoted(names)));
 }
 
-void check_age(const NodeState& node, const DeformableOrgan& organ) {
-  const ros::Time now = ros::Time::now();
-  const double timeout_sec = node.parameters.mesh_timeout_sec;
-  if (!is_stale(organ.latest(), now, timeout_sec)) return;
-  throw Rejection(ContactArray::STALE_MESH, "stale mesh",
-                  stale_message(organ.name(), organ.latest(), now, timeout_sec));
-}
-
 }  // namespace
 
 QueryCollision::Request common_request(const QueryCollisionBatch::Request& batch) {
@@ -224,7 +216,9 @@ void QueryQuestion::complete(const NodeState& node, bool in_tf) {
   const DeformableOrgan& of_node = node.pipeline.inbox.organs.at(organs.front());
   const std::string motion_frame = tf_frame(frame);
   set_organ(of_node, of_node.latest());
-  check_age(node, of_node);
+  const double timeout_sec = node.parameters.mesh_timeout_sec;
+  const std::string stale = stale_fault(organ, shape, ros::Time::now(), timeout_sec);
+  if (!stale.empty()) throw Rejection(ContactArray::STALE_MESH, "stale mesh", stale);
   if (!organ_rests) set_organ_motion(shape.before, ros::Time::now());
   if (tool && in_tf) return find_motion(node, tool_index);
   if (motion_frame.empty()) refuse("header.frame_id is empty; must be the frame of the motions");

@@ -99,12 +99,9 @@ void count_failure(FailureLog& log, std::uint8_t status, const std::string& mess
   log.add(reason_of(status), message, std::chrono::steady_clock::now());
 }
 
-bool is_stale(const OrganShape& shape, ros::Time now, double timeout_sec) {
-  return timeout_sec > 0.0 && shape.age(now) > timeout_sec;
-}
-
-std::string stale_message(const std::string& organ, const OrganShape& shape, ros::Time now,
-                          double timeout_sec) {
+std::string stale_fault(const std::string& organ, const OrganShape& shape, ros::Time now,
+                        double timeout_sec) {
+  if (!(timeout_sec > 0.0 && shape.age(now) > timeout_sec)) return "";
   return concatenate("the last shape of organ '", organ, "' came ", duration_text(shape.age(now)),
                      " ago; at most ", timeout_sec, " s are allowed (mesh_timeout_sec)");
 }

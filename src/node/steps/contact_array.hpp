@@ -28,11 +28,10 @@ void set_memory(ContactArray& answer, const ContactArray* last);
 /// Counts an answer that failed. An answer with the status OK is not counted.
 void count_failure(FailureLog& log, std::uint8_t status, const std::string& message);
 
-/// Whether the shape came longer ago than `timeout_sec`. If `timeout_sec` is 0, no shape is stale.
-bool is_stale(const OrganShape& shape, ros::Time now, double timeout_sec);
-/// The message for the status STALE_MESH, with the age and the limit.
-std::string stale_message(const std::string& organ, const OrganShape& shape, ros::Time now,
-                          double timeout_sec);
+/// The message for the status STALE_MESH, with the age and the limit, if the shape came longer ago
+/// than `timeout_sec`. Otherwise empty. If `timeout_sec` is 0, no shape is stale.
+std::string stale_fault(const std::string& organ, const OrganShape& shape, ros::Time now,
+                        double timeout_sec);
 
 // These copy all fields. Lengths are in metres, and positions and directions stay in the same
 // frame.

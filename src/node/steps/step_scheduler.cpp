@@ -152,10 +152,10 @@ void StepScheduler::plan_latest(const DeformableOrgan& organ, std::size_t tool, 
   forget_if_disproved(organ, tool, pair);
   ToolStep step = begin_step(organ, tool, pair, false);
   const ros::Time now = ros::Time::now();
-  const double timeout_sec = parameters_.mesh_timeout_sec;
-  if (tools_[tool].fault.empty() && is_stale(pair.current, now, timeout_sec)) {
-    return plan_failure(std::move(step), now, ContactArray::STALE_MESH,
-                        stale_message(organ.name(), pair.current, now, timeout_sec));
+  const std::string stale =
+      stale_fault(organ.name(), pair.current, now, parameters_.mesh_timeout_sec);
+  if (tools_[tool].fault.empty() && !stale.empty()) {
+    return plan_failure(std::move(step), now, ContactArray::STALE_MESH, stale);
   }
   auto end = poses_.pose(tools_[tool], organ.frame(), ros::Time(0));
   if (only_new && end.found && is_answered(pair, end.found->stamp)) return;

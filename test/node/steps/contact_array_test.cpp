@@ -127,10 +127,10 @@ TEST(Answers, TextThatCameWithAMessageIsPlainAndShort) {
 TEST(Answers, StaleIsAShapeThatCameLongerAgoThanTheLimitWhateverItsStamp) {
   for (const ros::Time stamp : {ros::Time(10), ros::Time(), ros::Time(3600)}) {
     const OrganShape shape{nullptr, stamp, ros::Time(12)};
-    EXPECT_FALSE(is_stale(shape, ros::Time(99), 0.0));
-    EXPECT_FALSE(is_stale(shape, ros::Time(14), 2.0));
-    EXPECT_TRUE(is_stale(shape, ros::Time(14.1), 2.0));
-    EXPECT_FALSE(is_stale(shape, ros::Time(3), 2.0));  // The clock has jumped back.
+    EXPECT_EQ(stale_fault("liver", shape, ros::Time(99), 0.0), "");
+    EXPECT_EQ(stale_fault("liver", shape, ros::Time(14), 2.0), "");
+    EXPECT_NE(stale_fault("liver", shape, ros::Time(14.1), 2.0), "");
+    EXPECT_EQ(stale_fault("liver", shape, ros::Time(3), 2.0), "");  // The clock has jumped back.
   }
 }
 
