@@ -124,9 +124,9 @@ ProxyScene proxy_scene(const OrganRegistry& organs, const TransformBuffer& trans
   if (organs.organs().empty()) throw no_organ();
   ProxyScene scene{frame, {}, {}};
   for (const auto& [name, organ] : organs.organs()) {
-    if (is_stale(organ.latest(), now, limits.mesh_sec)) {
-      throw Rejection(ContactArray::STALE_MESH, reason_of(ContactArray::STALE_MESH),
-                      stale_message(name, organ.latest(), now, limits.mesh_sec));
+    const std::string stale = stale_fault(name, organ.latest(), now, limits.mesh_sec);
+    if (!stale.empty()) {
+      throw Rejection(ContactArray::STALE_MESH, reason_of(ContactArray::STALE_MESH), stale);
     }
     auto T_organ_proxy = look_up(transforms, organ.frame(), frame, at);
     if (!T_organ_proxy.found) T_organ_proxy = look_up(transforms, organ.frame(), frame, {});

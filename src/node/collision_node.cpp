@@ -13,7 +13,7 @@
 #include "node/publishing/touch_tracker.hpp"
 #include "node/queries/query_services.hpp"
 #include "node/steps/collision_pipeline.hpp"
-#include "node/steps/contact_array.hpp"
+#include "node/steps/question.hpp"
 #include "node_core.hpp"
 #include "organ_collision/ros/names.hpp"
 
@@ -165,7 +165,7 @@ void CollisionNode::publish(const ToolStep& step) {
 void CollisionNode::watch_ends(const ToolStep& step) {
   const ToolParameters& tool = core_.tools()[step.tool].parameters;
   const auto doubt =
-      swaps_[step.tool].follow(tool, step.request.path, std::chrono::steady_clock::now());
+      swaps_[step.tool].follow(tool, step.question.sampled.path, std::chrono::steady_clock::now());
   if (!doubt) return;
   const TransformBuffer& transforms = pipeline_.inbox.transforms;
   const bool is_one_body =

@@ -38,10 +38,8 @@ void answer(const Motion& motion) {
   static const TriangleMesh organ({-1, -1, 0, 1, -1, 0.1f, 1, 1, 0, -1, 1, 0.2f},
                                   {0, 1, 2, 0, 2, 3});
   static CollisionQuery query(PickerKind::kFeedback);
-  CollisionRequest request = request_of(motion);
-  request.organ = &organ;
   CollisionResult result;
-  query.evaluate(request, result);
+  query.evaluate(request_of(motion, {&organ}), result);
   for (const FaceContact& contact : result.contacts) {
     demand(contact.face < 2, "a contact's face exists");
   }

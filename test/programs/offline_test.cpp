@@ -126,7 +126,7 @@ TEST(Motions, have_every_mode) {
       EXPECT_EQ(motion.query, "7");
       EXPECT_EQ(motion.line, 4U);
       EXPECT_EQ(motion.radius, 1e-3);
-      const ToolPath path = request_of(motion).path;
+      const ToolPath path = request_of(motion, {}).path;
       ASSERT_EQ(path.size(), is_static ? 1U : 2U);
       EXPECT_EQ(path.back().axis.trocar, Eigen::Vector3d(1, 2, 3));
       EXPECT_EQ(path.back().axis.tip, Eigen::Vector3d(7, 8, 9));
@@ -142,8 +142,8 @@ TEST(Motions, may_have_a_trocar_that_moves) {
                            ",0.001,,,\n3,swept" + kPoints + ",0.001\n");
   Motions motions(file.path(), Order::kAsInFile);
   EXPECT_EQ(motions.next()->previous_trocar, Eigen::Vector3d(1, 2, 4));
-  EXPECT_EQ(request_of(*motions.next()).path.size(), 1U);
-  const ToolPath resting = request_of(*motions.next()).path;
+  EXPECT_EQ(request_of(*motions.next(), {}).path.size(), 1U);
+  const ToolPath resting = request_of(*motions.next(), {}).path;
   EXPECT_EQ(resting.front().axis.trocar, resting.back().axis.trocar);
 }
 

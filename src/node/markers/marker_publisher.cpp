@@ -279,7 +279,8 @@ void MarkerPublisher::add(const ToolStep& step) {
   if (subscribers_ == 0 || is_switched_off()) return;
   if (steps_.size() >= kMostSteps) steps_.clear();
   steps_.push_back({std::chrono::steady_clock::now(), step.answer,
-                    step.pair->current.mesh->shared_faces(), step.request.path, step.query_sec});
+                    step.question.shape.mesh->shared_faces(), step.question.sampled.path,
+                    step.query_sec});
 }
 
 void MarkerPublisher::update(const OrganRegistry& organs, const StepHistory& history) {

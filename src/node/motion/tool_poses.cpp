@@ -24,9 +24,23 @@ constexpr double kNoArm = 1e-12;
 /// [ns] Poses that are nearer in time have none in between that is looked up.
 constexpr std::int64_t kShortest = 2000;
 
-std::string link_of(const Tool& tool, std::size_t link, bool is_late) {
+/// The frames of the shaft and the links. `with_tip`: and of the tip of the links, if they have
+/// one.
+TransformBuffer::Frames frames_of(const Tool& tool, bool with_tip) {
+  TransformBuffer::Frames frames = swept_frames(tool);
+  if (with_tip && tool.parameters.has_tip_of_links()) frames.push_back(tool.parameters.tip_frame);
+  return frames;
+}
+
+/// What has a frame of frames_of(). Empty for the ends of a shaft, whose frames say enough.
+std::string owner_of(const Tool& tool, std::size_t frame, bool is_late) {
+  const std::string of_tool = " of tool '" + tool.parameters.name + "'";
+  const std::size_t of_shaft = tool.parameters.has_shaft() ? 2 : 0;
+  if (frame < of_shaft) return "";
+  const std::size_t link = frame - of_shaft;
+  if (link == tool.links.size()) return "tip" + of_tool + ": ";
   const std::string joint = is_late ? "" : tool.joints[link];
-  return "link '" + tool.links[link].name + "' of tool '" + tool.parameters.name + "'" +
+  return "link '" + tool.links[link].name + "'" + of_tool +
          (joint.empty() ? "" : " (is joint '" + joint + "' published?)") + ": ";
 }
 
@@ -127,8 +141,7 @@ std::vector<ros::Time> ToolPoses::sample_times(const Tool& tool, const std::stri
 }
 
 bool ToolPoses::has_pose(const Tool& tool, const std::string& organ_frame, ros::Time time) const {
-  TransformBuffer::Frames frames = swept_frames(tool);
-  if (tool.parameters.has_tip_of_links()) frames.push_back(tool.parameters.tip_frame);
+  const TransformBuffer::Frames frames = frames_of(tool, true);
   const std::optional<ros::Time> until = buffer_.believed_until(organ_frame, frames);
   if (until && time > *until) return false;
   try {
@@ -141,51 +154,37 @@ bool ToolPoses::has_pose(const Tool& tool, const std::string& organ_frame, ros::
 }
 
 Lookup<ToolPose> ToolPoses::pose(const Tool& tool, const std::string& organ_frame, ros::Time time,
-                                 bool with_tip_of_links) const {
+                                 PoseUse use) const {
   const ToolParameters& parameters = tool.parameters;
-  ToolPose pose{{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}};
+  const TransformBuffer::Frames frames = frames_of(tool, use == PoseUse::kStepEnd);
+  std::vector<Eigen::Isometry3d> found;  // T_organ_frame of each frame
+  found.reserve(frames.size());
   ros::Time earliest, latest;  // Zero: all transforms are static.
-  const auto look_up_frame = [&](const std::string& frame) {
-    auto lookup = look_up(buffer_, organ_frame, frame, time);
-    if (!lookup.found || lookup.found->stamp.isZero()) return lookup;
-    earliest = earliest.isZero() ? lookup.found->stamp : std::min(earliest, lookup.found->stamp);
-    latest = std::max(latest, lookup.found->stamp);
-    return lookup;
-  };
-  if (parameters.has_shaft()) {
-    const auto trocar = look_up_frame(parameters.trocar_frame);
-    if (!trocar.found)
-      return {std::nullopt, why_not(parameters, organ_frame, parameters.trocar_frame, trocar)};
-    const auto tip = look_up_frame(parameters.tip_frame);
-    if (!tip.found)
-      return {std::nullopt, why_not(parameters, organ_frame, parameters.tip_frame, tip)};
-    pose.axis = {trocar.found->value * parameters.trocar_offset,
-                 tip.found->value * parameters.tip_offset};
-    pose.carriers = {
-        carrier_of(buffer_, parameters.trocar_frame, trocar.found->value, pose.axis.trocar),
-        carrier_of(buffer_, parameters.tip_frame, tip.found->value, pose.axis.tip)};
-  }
-  pose.links.reserve(tool.links.size());
-  for (std::size_t i = 0; i < tool.links.size(); ++i) {
-    const std::string frame = parameters.link_frame(tool.links[i].name);
-    const auto link = look_up_frame(frame);
-    if (!link.found) {
-      return {std::nullopt,
-              why_not(parameters, organ_frame, frame, link, link_of(tool, i, link.is_late))};
-    }
-    pose.links.push_back(link.found->value);
-  }
-  if (with_tip_of_links && parameters.has_tip_of_links()) {
-    const auto tip = look_up_frame(parameters.tip_frame);
-    if (!tip.found) {
-      return {std::nullopt, why_not(parameters, organ_frame, parameters.tip_frame, tip,
-                                    "tip of tool '" + parameters.name + "': ")};
-    }
-    pose.tip = tip.found->value * parameters.tip_offset;
+  for (const std::string& frame : frames) {
+    const auto lookup = look_up(buffer_, organ_frame, frame, time);
+    if (!lookup.found) return {std::nullopt, why_not(tool, organ_frame, found.size(), lookup)};
+    found.push_back(lookup.found->value);
+    const ros::Time stamp = lookup.found->stamp;
+    if (stamp.isZero()) continue;
+    earliest = earliest.isZero() ? stamp : std::min(earliest, stamp);
+    latest = std::max(latest, stamp);
   }
   // For time zero, each frame was looked up at its own latest time. All poses must be of the same
   // time, so they are looked up again at the earliest of these times.
-  if (earliest != latest) return this->pose(tool, organ_frame, earliest, with_tip_of_links);
+  if (earliest != latest) return this->pose(tool, organ_frame, earliest, use);
+  ToolPose pose{{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}};
+  auto next = found.begin();
+  if (parameters.has_shaft()) {
+    const Eigen::Isometry3d &trocar = *next++, &tip = *next++;
+    pose.axis = {trocar * parameters.trocar_offset, tip * parameters.tip_offset};
+    if (use != PoseUse::kVelocity) {
+      pose.carriers = {carrier_of(buffer_, parameters.trocar_frame, trocar, pose.axis.trocar),
+                       carrier_of(buffer_, parameters.tip_frame, tip, pose.axis.tip)};
+    }
+  }
+  const auto end = next + static_cast<std::ptrdiff_t>(tool.links.size());
+  pose.links.assign(next, end);
+  if (end != found.end()) pose.tip = *end * parameters.tip_offset;
   return {{{std::move(pose), earliest}}, ""};
 }
 
@@ -194,7 +193,8 @@ ToolPose ToolPoses::pose_before(const Tool& tool, const std::string& organ_frame
   const bool moves = end.stamp.toSec() > kVelocitySec &&
                      buffer_.goes_on(organ_frame, swept_frames(tool), end.stamp, now);
   if (!moves) return end.value;
-  auto before = pose(tool, organ_frame, end.stamp - ros::Duration(kVelocitySec), false);
+  auto before =
+      pose(tool, organ_frame, end.stamp - ros::Duration(kVelocitySec), PoseUse::kVelocity);
   return before.found ? std::move(before.found->value) : end.value;
 }
 
@@ -211,10 +211,9 @@ bool ToolPoses::is_disproved(const Tool& tool, const std::string& organ_frame,
   return until && stamp.toSec() > until->toSec() + kClockTolerance;
 }
 
-std::string ToolPoses::why_not(const ToolParameters& tool, const std::string& organ_frame,
-                               const std::string& frame, const Lookup<Eigen::Isometry3d>& lookup,
-                               const std::string& what) const {
-  const std::string &topic = tool.tip_pose_topic, &tip = tool.tip_frame;
+std::string ToolPoses::why_not(const Tool& tool, const std::string& organ_frame,
+                               std::size_t missing, const Lookup<Eigen::Isometry3d>& lookup) const {
+  const std::string &topic = tool.parameters.tip_pose_topic, &tip = tool.parameters.tip_frame;
   if (!topic.empty()) {
     const std::string refusal = buffer_.refusal(tip);
     if (!refusal.empty()) return "the last pose on " + topic + " " + refusal;
@@ -223,8 +222,9 @@ std::string ToolPoses::why_not(const ToolParameters& tool, const std::string& or
   if (lookup.unknown_frame == organ_frame) {
     return lookup.why_not + "; it is the frame of the organ or of the node, not of the tool";
   }
-  std::string why = what + lookup.why_not;
+  std::string why = owner_of(tool, missing, lookup.is_late) + lookup.why_not;
   if (topic.empty() || !lookup.is_late) return why;
+  const std::string frame = frames_of(tool, true)[missing];
   const auto oldest = buffer_.oldest_transform(frame, {organ_frame});
   const auto of_organ = buffer_.oldest_transform(organ_frame, {frame});
   if (!oldest || oldest->frame != tip) return why;
@@ -252,7 +252,7 @@ SampledPath ToolPoses::path(const Tool& tool, const std::string& organ_frame,
       if (more > 0 && gap > kShortest && path.is_far(last.value, next.value)) {
         ros::Time half_way;
         half_way.fromNSec(last.stamp.toNSec() + static_cast<std::uint64_t>(gap / 2));
-        auto between = pose(tool, organ_frame, half_way, false);
+        auto between = pose(tool, organ_frame, half_way, PoseUse::kSample);
         if (between.found && is_near(between.found->value) &&
             path.is_bent(last.value, between.found->value, next.value)) {
           --more;
@@ -268,7 +268,7 @@ SampledPath ToolPoses::path(const Tool& tool, const std::string& organ_frame,
   };
   for (const ros::Time time : sample_times(tool, organ_frame, from.stamp, to.stamp, sampled)) {
     // A sample that is too far away to be evaluated must not make the whole step fail.
-    const auto between = pose(tool, organ_frame, time, false);
+    const auto between = pose(tool, organ_frame, time, PoseUse::kSample);
     if (between.found && is_near(between.found->value)) {
       add({between.found->value, time});
     } else if (sampled.unknown.empty()) {

@@ -27,11 +27,13 @@ class ToolPoses {
   ToolPoses(TransformBuffer& buffer, const PathSampling& sampling)
       : buffer_(buffer), sampling_(sampling) {}
 
+  /// What a pose is for. The tip of links is looked up for the end of a step only, because it is
+  /// not swept. What carries the ends of a shaft is not looked up for a velocity.
+  enum class PoseUse { kStepEnd, kSample, kVelocity };
   /// The pose of a tool at a time. Time zero means the latest time at which all frames of the tool
-  /// are known. `with_tip_of_links`: not needed for samples of a motion, because that tip is not
-  /// swept.
+  /// are known.
   Lookup<ToolPose> pose(const Tool& tool, const std::string& organ_frame, ros::Time time,
-                        bool with_tip_of_links = true) const;
+                        PoseUse use = PoseUse::kStepEnd) const;
 
   /// The pose from which the tool has come within kVelocitySec with a constant velocity, which it
   /// has at its pose `end`. It is `end` if the tool rests: no earlier pose is known, or newer
@@ -71,12 +73,10 @@ class ToolPoses {
  private:
   /// The most stamps that are read for a step, and the most poses that are added between them.
   std::size_t most_read() const;
-  /// Why a tool's pose is not known, if `lookup` of `frame` found nothing. `what`: what was looked
-  /// up, put before the reason unless the organ's frame is missing. If no message ever came on the
-  /// tool's pose topic, or the last one was refused, this is the reason.
-  std::string why_not(const ToolParameters& tool, const std::string& organ_frame,
-                      const std::string& frame, const Lookup<Eigen::Isometry3d>& lookup,
-                      const std::string& what = "") const;
+  /// Why a tool's pose is not known, if `lookup` of its frame number `missing` found nothing. If no
+  /// message ever came on the tool's pose topic, or the last one was refused, this is the reason.
+  std::string why_not(const Tool& tool, const std::string& organ_frame, std::size_t missing,
+                      const Lookup<Eigen::Isometry3d>& lookup) const;
   std::vector<ros::Time> sample_times(const Tool& tool, const std::string& organ_frame,
                                       ros::Time from, ros::Time to, SampledPath& lost) const;
 

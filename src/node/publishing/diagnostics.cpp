@@ -97,9 +97,8 @@ void show_organs(const ReceivedParts& parts, Status& status) {
     const OrganShape& shape = organ.latest();
     status.add(name + ", age of mesh [s]", shape.age(now));
     show_organ(organ, parts.organs.last_refusal(name), status);
-    if (is_stale(shape, now, timeout)) {
-      status.mergeSummary(DiagnosticStatus::WARN, stale_message(name, shape, now, timeout));
-    }
+    const std::string stale = stale_fault(name, shape, now, timeout);
+    if (!stale.empty()) status.mergeSummary(DiagnosticStatus::WARN, stale);
   }
 }
 

@@ -15,9 +15,6 @@ static_assert(ContactArray::STATIC == static_cast<int>(QueryMode::kStatic) &&
               ContactArray::PAPER_SWEPT == static_cast<int>(QueryMode::kPaperSwept) &&
               ContactArray::PAPER_NAIVE == static_cast<int>(QueryMode::kPaperNaive));
 
-/// A query waits at most this long until the background thread has inspected a new surface.
-constexpr std::chrono::milliseconds kLongestInspection(200);
-
 using Poses = std::vector<geometry_msgs::Pose>;
 
 void check_point(const char* name, const geometry_msgs::Point& point) {
@@ -132,83 +129,15 @@ void check_tool(const Tool& tool, QueryMode mode) {
   }
 }
 
-void set_end(ros::Time end, ContactArray& answer) {
-  if (!end.isZero()) answer.header.stamp = end;
-  answer.step_start = answer.header.stamp;
-}
-
-const Tool& find_tool(const NodeState& node, const std::string& name) {
+std::size_t index_of(const NodeState& node, const std::string& name) {
   std::vector<std::string> names;
   for (const Tool& tool : node.tools) {
-    if (tool.parameters.name == name) return tool;
+    if (tool.parameters.name == name) return names.size();
     names.push_back(tool.parameters.name);
   }
   throw Rejection(ContactArray::UNKNOWN_TOOL, "unknown tool",
                   "tool '" + name + "' is unknown; " +
                       (names.empty() ? "the node has none" : "known are " + quoted(names)));
-}
-
-void check_age(const NodeState& node, const DeformableOrgan& organ) {
-  const ros::Time now = ros::Time::now();
-  const double timeout_sec = node.parameters.mesh_timeout_sec;
-  if (!is_stale(organ.latest(), now, timeout_sec)) return;
-  throw Rejection(ContactArray::STALE_MESH, "stale mesh",
-                  stale_message(organ.name(), organ.latest(), now, timeout_sec));
-}
-
-/// Sets what a snapshot needs if the request gives the motion: the transform of the motion's frame.
-void read_motion_frame(const NodeState& node, const QueryCollision::Request& request,
-                       const DeformableOrgan& organ, QuerySnapshot& snapshot,
-                       ContactArray& answer) {
-  const std::string frame = tf_frame(request.header.frame_id);
-  if (frame.empty()) refuse("header.frame_id is empty; must be the frame of the motions");
-  const auto T_organ_motion =
-      look_up(node.pipeline.inbox.transforms, organ.frame(), frame, request.header.stamp);
-  if (!T_organ_motion.found) {
-    throw Rejection(ContactArray::NO_TRANSFORM, "no transform", T_organ_motion.why_not);
-  }
-  snapshot.T_organ_motion = T_organ_motion.found->value;
-  set_end(T_organ_motion.found->stamp, answer);
-}
-
-/// Sets what a snapshot needs if the tool moves as in TF: its path since its last step, and its
-/// tip.
-void read_tool_motion(const NodeState& node, const QueryCollision::Request& request,
-                      const DeformableOrgan& organ, const Tool& tool, QuerySnapshot& snapshot,
-                      ContactArray& answer) {
-  const auto end = node.pipeline.poses.pose(tool, organ.frame(), request.header.stamp);
-  if (!end.found) throw Rejection(ContactArray::NO_TRANSFORM, "no transform", end.why_not);
-  snapshot.tip = end.found->value.tip;
-  set_end(end.found->stamp, answer);
-  snapshot.pose_before =
-      node.pipeline.poses.pose_before(tool, organ.frame(), *end.found, ros::Time::now());
-
-  const auto index = static_cast<std::size_t>(&tool - node.tools.data());
-  const StepHistory& history = node.pipeline.steps.history();
-  const auto pair = history.find({organ.name(), index});
-  const LastStep* last = pair != history.end() && pair->second.last ? &*pair->second.last : nullptr;
-  const bool is_disproved =
-      last && node.pipeline.poses.is_disproved(tool, organ.frame(), last->stamp);
-  if (!last || is_disproved || is_static_mode(static_cast<QueryMode>(request.mode))) {
-    snapshot.path = resting_path(end.found->value);
-    return;
-  }
-  // If all transforms are static, the query's step ends now. The node may have ended its last step
-  // after the answer got its stamp.
-  const bool is_now = end.found->stamp.isZero() && request.header.stamp.isZero();
-  if (is_now) answer.header.stamp = std::max(answer.header.stamp, last->stamp);
-  if (answer.header.stamp < last->stamp) {
-    refuse("the step would end at ", answer.header.stamp,
-           " s, before it begins: the last step of tool '", tool.parameters.name, "' ended at ",
-           last->stamp, " s; header.stamp must not be earlier");
-  }
-  SampledPath sampled = node.pipeline.poses.path(tool, organ.frame(), {last->pose, last->stamp},
-                                                 {end.found->value, answer.header.stamp});
-  snapshot.path = std::move(sampled.path);
-  snapshot.unknown = std::move(sampled.unknown);
-  answer.step_start = last->stamp;
-  const bool rests = !has_same_faces(*last, *organ.latest().mesh);
-  snapshot.shape_before = rests ? nullptr : last->mesh;
 }
 
 }  // namespace
@@ -239,82 +168,95 @@ std::vector<std::string> asked_organs(const NodeState& node, const std::string& 
   return names;
 }
 
-CollisionRequest checked_request(const QueryCollision::Request& request) {
-  if (request.mode > ContactArray::PAPER_NAIVE) {
-    refuse("mode is ", static_cast<int>(request.mode), "; legal are 0 (STATIC) to 4 (PAPER_NAIVE)");
+void check_options(const QueryOptions& asked) {
+  const int mode = static_cast<int>(asked.mode);
+  if (mode > ContactArray::PAPER_NAIVE) {
+    refuse("mode is ", mode, "; legal are 0 (STATIC) to 4 (PAPER_NAIVE)");
   }
-  CollisionRequest collision;
-  collision.mode = static_cast<QueryMode>(request.mode);
-  collision.regions = request.regions != 0;
-  collision.margin = request.margin;
-  collision.max_near = request.max_near;
-  collision.clearance = request.clearance != 0;
-  collision.placement = request.placement != 0;
   // CollisionQuery refuses these values, too, but separately for each motion of a batch.
-  const double margin = collision.margin;
-  if (!std::isfinite(margin) || margin < 0.0) {
-    refuse("margin is ", margin,
+  if (!std::isfinite(asked.margin) || asked.margin < 0.0) {
+    refuse("margin is ", asked.margin,
            " m; must be positive and finite, or 0 for no clearance within a margin");
   }
-  if (collision.max_near > 0 && margin == 0.0) {
-    refuse("max_near is ", collision.max_near,
-           ", and margin is 0; near faces need a margin above 0");
+  if (asked.max_near > 0 && asked.margin == 0.0) {
+    refuse("max_near is ", asked.max_near, ", and margin is 0; near faces need a margin above 0");
   }
-  const bool asks_more = margin > 0.0 || collision.clearance || collision.placement;
-  if (is_paper_mode(collision.mode) && asks_more) {
-    refuse("mode is ", static_cast<int>(collision.mode),
+  const bool asks_more = asked.margin > 0.0 || asked.clearance || asked.placement;
+  if (is_paper_mode(asked.mode) && asks_more) {
+    refuse("mode is ", mode,
            ", which has no clearance, near faces or placement; for these, legal are 0 (STATIC) and "
            "1 (SWEPT)");
   }
-  return collision;
 }
 
-QuerySnapshot take_snapshot(const NodeState& node, const QueryCollision::Request& request,
-                            bool in_tf, ContactArray& answer) {
-  const Tool* const tool = request.tool.empty() ? nullptr : &find_tool(node, request.tool);
-  if (tool) {
-    answer.links = tool->parameters.links;
-    check_tool(*tool, static_cast<QueryMode>(request.mode));
-  }
-  const std::vector<std::string> asked = asked_organs(node, request.organ);
-  if (asked.size() > 1) refuse("organ is empty; must be one of ", quoted(asked));
-  const DeformableOrgan& organ = node.pipeline.inbox.organs.at(asked.front());
-  answer.organ = organ.name();
-  set_organ(answer, organ, organ.latest());
-  check_age(node, organ);
-  QuerySnapshot snapshot;
-  snapshot.latest = organ.latest();
-  if (!node.parameters.organ_motion) snapshot.latest.forget_before();
-  snapshot.shape_before = snapshot.latest.before;
-  if (tool && in_tf) {
-    read_tool_motion(node, request, organ, *tool, snapshot, answer);
-  } else {
-    read_motion_frame(node, request, organ, snapshot, answer);
-  }
-  const bool rests = !node.parameters.organ_motion || snapshot.shape_before == snapshot.latest.mesh;
-  if (rests) snapshot.shape_before = nullptr;
-  if (tool) snapshot.tool = *tool;
-  return snapshot;
+QueryQuestion::QueryQuestion(const QueryCollision::Request& request)
+    : organ_rests(request.organ_rests != 0), stamp(request.header.stamp) {
+  organ = request.organ;
+  tool_name = request.tool;
+  frame = request.header.frame_id;
+  start = end = stamp.isZero() ? ros::Time::now() : stamp;
+  asked = {static_cast<QueryMode>(request.mode),
+           request.regions != 0,
+           request.margin,
+           request.max_near,
+           request.clearance != 0,
+           request.placement != 0};
 }
 
-void set_subject(const QuerySnapshot& snapshot, bool organ_rests, CollisionRequest& collision) {
-  collision.organ = snapshot.latest.mesh.get();
-  const bool moves = !organ_rests && collision.mode == QueryMode::kSwept;
-  if (moves) collision.organ_before = snapshot.shape_before.get();
-  if (!organ_rests) collision.velocity_from = snapshot.latest.moves_from(ros::Time::now()).get();
-  collision.velocity_sec = snapshot.latest.motion_sec;
-  collision.pose_before = snapshot.pose_before;
-  collision.pose_before_sec = kVelocitySec;
-  if (collision.placement) {
-    snapshot.latest.surface->wait_until_found(kLongestInspection);
-    collision.surface_topology = snapshot.latest.topology();
+void QueryQuestion::complete(const NodeState& node, bool in_tf) {
+  organ_rests = organ_rests || !node.parameters.organ_motion;
+  std::size_t tool_index = 0;
+  if (!tool_name.empty()) {
+    tool_index = index_of(node, tool_name);
+    tool = std::make_shared<const Tool>(node.tools[tool_index]);
+    check_tool(*tool, asked.mode);
   }
-  if (!snapshot.tool) return;
-  collision.radius = snapshot.tool->parameters.radius;
-  collision.links = &snapshot.tool->links;
+  const std::vector<std::string> organs = asked_organs(node, organ);
+  if (organs.size() > 1) refuse("organ is empty; must be one of ", quoted(organs));
+  const DeformableOrgan& of_node = node.pipeline.inbox.organs.at(organs.front());
+  const std::string motion_frame = tf_frame(frame);
+  set_organ(of_node, of_node.latest());
+  const double timeout_sec = node.parameters.mesh_timeout_sec;
+  const std::string stale = stale_fault(organ, shape, ros::Time::now(), timeout_sec);
+  if (!stale.empty()) throw Rejection(ContactArray::STALE_MESH, "stale mesh", stale);
+  if (!organ_rests) set_organ_motion(shape.before, ros::Time::now());
+  if (tool && in_tf) return find_motion(node, tool_index);
+  if (motion_frame.empty()) refuse("header.frame_id is empty; must be the frame of the motions");
+  const auto found = look_up(node.pipeline.inbox.transforms, frame, motion_frame, stamp);
+  if (!found.found) throw Rejection(ContactArray::NO_TRANSFORM, "no transform", found.why_not);
+  T_organ_motion = found.found->value;
+  if (!found.found->stamp.isZero()) start = end = found.found->stamp;
 }
 
-void check_lists(const QueryCollisionBatch::Request& batch, const std::optional<Tool>& tool) {
+/// The tool moves as in TF, since its last step if it had one.
+void QueryQuestion::find_motion(const NodeState& node, std::size_t tool_index) {
+  const ToolPoses& poses = node.pipeline.poses;
+  const auto pose = poses.pose(*tool, frame, stamp);
+  if (!pose.found) throw Rejection(ContactArray::NO_TRANSFORM, "no transform", pose.why_not);
+  if (!pose.found->stamp.isZero()) start = end = pose.found->stamp;
+
+  const StepHistory& history = node.pipeline.steps.history();
+  const auto pair = history.find({organ, tool_index});
+  const bool has_last = pair != history.end() && pair->second.last &&
+                        !poses.is_disproved(*tool, frame, pair->second.last->stamp);
+  std::optional<Timed<ToolPose>> from;
+  if (has_last && !is_static_mode(asked.mode)) {
+    const LastStep& last = *pair->second.last;
+    // If all transforms are static, the query's step ends now. The node may have ended its last
+    // step after the answer got its stamp.
+    if (pose.found->stamp.isZero() && stamp.isZero()) end = std::max(end, last.stamp);
+    if (end < last.stamp) {
+      refuse("the step would end at ", end, " s, before it begins: the last step of tool '",
+             tool_name, "' ended at ", last.stamp, " s; header.stamp must not be earlier");
+    }
+    start = last.stamp;
+    from = {last.pose, last.stamp};
+    if (!organ_rests) before = has_same_faces(last, *shape.mesh) ? last.mesh : nullptr;
+  }
+  follow(poses, from, {pose.found->value, end}, ros::Time::now());
+}
+
+void check_lists(const QueryCollisionBatch::Request& batch, const Tool* tool) {
   const std::size_t shafts = batch.motions.size(), links = batch.link_motions.size();
   if (!tool) {
     if (links > 0) {
@@ -337,19 +279,22 @@ void check_lists(const QueryCollisionBatch::Request& batch, const std::optional<
   }
 }
 
-void set_motion(const GivenMotion& motion, const QuerySnapshot& snapshot,
-                CollisionRequest& collision) {
-  const bool at_end_only = is_static_mode(collision.mode);
-  if (!snapshot.tool) {
-    check_shaft(*motion.shaft, collision.mode);
-    collision.radius = motion.shaft->radius;
-    collision.path = path_of(motion, at_end_only, snapshot.T_organ_motion);
-    return;
+CollisionRequest request_on(const GivenMotion& motion, const QueryQuestion& question) {
+  const QueryMode mode = question.asked.mode;
+  if (!question.tool) {
+    check_shaft(*motion.shaft, mode);
+  } else {
+    check_shaft_of(*question.tool, motion.shaft, mode);
+    check_links_of(*question.tool, motion.links, mode);
   }
-  check_shaft_of(*snapshot.tool, motion.shaft, collision.mode);
-  check_links_of(*snapshot.tool, motion.links, collision.mode);
-  collision.path = path_of(motion, at_end_only, snapshot.T_organ_motion);
-  collision.tip = tip_of_links(snapshot.tool->parameters, collision.path.back());
+  CollisionRequest request =
+      question.request(path_of(motion, is_static_mode(mode), question.T_organ_motion));
+  if (!question.tool) {
+    request.radius = motion.shaft->radius;
+  } else {
+    request.tip = tip_of_links(question.tool->parameters, request.path.back());
+  }
+  return request;
 }
 
 }  // namespace organ_collision

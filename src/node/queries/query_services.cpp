@@ -12,6 +12,9 @@
 namespace organ_collision {
 namespace {
 
+/// A query waits at most this long until the background thread has inspected a new surface.
+constexpr std::chrono::milliseconds kLongestInspection(200);
+
 /// Also releases the memory of the results, because the batch may have failed for lack of memory.
 void set_failure(QueryCollisionBatch::Response& response, std::uint8_t status,
                  const std::string& message) {
@@ -19,13 +22,6 @@ void set_failure(QueryCollisionBatch::Response& response, std::uint8_t status,
   response.organs = {};
   response.status = status;
   response.message = plain_text(message, kLongestMessage);
-}
-
-/// An answer about what the request asks, before anything else is known.
-ContactArray unanswered(const QueryCollision::Request& request) {
-  const ros::Time stamp = request.header.stamp;
-  return answer_about(request.organ, request.tool, request.mode,
-                      stamp.isZero() ? ros::Time::now() : stamp);
 }
 
 void check_names(const QueryCollision::Request& request, bool in_tf) {
@@ -41,11 +37,11 @@ bool is_given(const LinkMotion& motion) {
   return !motion.previous.empty() || !motion.links.empty();
 }
 
-/// Runs `function`, which sets `answer`. If it throws, the exception becomes a failure of `answer`.
-template <typename Answer, typename Function>
-void or_failure(Answer& answer, const Function& function) {
+/// Sets the failure that the exception means which is being handled.
+template <typename Answer>
+void set_present_failure(Answer& answer) {
   try {
-    function();
+    throw;
   } catch (const Rejection& rejection) {
     set_failure(answer, rejection.status(), rejection.what());
   } catch (const std::exception& error) {
@@ -53,13 +49,6 @@ void or_failure(Answer& answer, const Function& function) {
                 std::string("the query failed: ") + error.what());
   }
 }
-
-/// One of the organs of a batch.
-struct BatchOrgan {
-  ContactArray unanswered;
-  QuerySnapshot snapshot;
-  CollisionRequest collision;  ///< without a motion; refers to the snapshot
-};
 
 }  // namespace
 
@@ -78,11 +67,13 @@ void QueryServices::advertise(const ros::NodeHandle& query_node,
     return true;
   };
   const auto on_batch = [this](const auto& request, auto& response) {
-    or_failure(response, [&] {
+    try {
       start_batches();
       yield_to_all_threads();  // This thread answers motions, too, and all steps come first.
-    });
-    if (response.status == ContactArray::OK) response = query_batch(request);
+      response = query_batch(request);
+    } catch (const std::exception&) {
+      set_present_failure(response);
+    }
     count_failure(counters_.refused, response.status, response.message);
     for (const ContactArray& answer : response.results) {
       count_failure(counters_.refused, answer.status, answer.message);
@@ -104,14 +95,19 @@ void QueryServices::start_batches() {
 }
 
 ContactArray QueryServices::query(const QueryCollision::Request& request) {
-  ContactArray answer = unanswered(request);
-  answer.header.frame_id = plain_text(request.header.frame_id, kLongestName);
-  or_failure(answer, [&] { answer_one(request, answer); });
-  return answer;
+  QueryQuestion question(request);
+  try {
+    return answer_one(request, question);
+  } catch (const std::exception&) {
+    ContactArray answer = question.unanswered();
+    set_present_failure(answer);
+    return answer;
+  }
 }
 
-void QueryServices::answer_one(const QueryCollision::Request& request, ContactArray& answer) {
-  CollisionRequest collision = checked_request(request);
+ContactArray QueryServices::answer_one(const QueryCollision::Request& request,
+                                       QueryQuestion& question) {
+  check_options(question.asked);
   const bool gives_links = is_given(request.link_motion);
   const bool is_of_tool = !request.tool.empty();
   if (gives_links && !is_of_tool) {
@@ -123,32 +119,34 @@ void QueryServices::answer_one(const QueryCollision::Request& request, ContactAr
     refuse("motion is set, and tool '", request.tool,
            "' moves as in TF; leave motion empty, or ask by query_batch");
   }
-  QuerySnapshot snapshot = snapshot_of(request, in_tf, answer);
-
-  set_subject(snapshot, request.organ_rests != 0, collision);
-  if (in_tf) {
-    collision.path = std::move(snapshot.path);
-    collision.tip = snapshot.tip;
-  } else {
-    const bool gives_shaft = !is_of_tool || is_given(request.motion);
-    set_motion(
-        {gives_shaft ? &request.motion : nullptr, gives_links ? &request.link_motion : nullptr},
-        snapshot, collision);
-  }
+  in_node_thread_([&] { question.complete(node_, in_tf); });
+  question.wait_for_surface(kLongestInspection);
+  const bool gives_shaft = !is_of_tool || is_given(request.motion);
+  const CollisionRequest collision =
+      in_tf ? question.request(question.sampled.path)
+            : request_on({gives_shaft ? &request.motion : nullptr,
+                          gives_links ? &request.link_motion : nullptr},
+                         question);
+  ContactArray answer = question.unanswered();
   const double query_sec = query_.evaluate(collision, answer);
-  set_incomplete(answer, snapshot.unknown);
+  set_incomplete(answer, question.sampled.unknown);
   if (answer.status == ContactArray::OK) counters_.service_times.add(query_sec);
+  return answer;
 }
 
 QueryCollisionBatch::Response QueryServices::query_batch(const Batch& batch) {
   QueryCollisionBatch::Response response;
-  or_failure(response, [&] { answer_batch(batch, response); });
+  try {
+    answer_batch(batch, response);
+  } catch (const std::exception&) {
+    set_present_failure(response);
+  }
   return response;
 }
 
 void QueryServices::answer_batch(const Batch& batch, QueryCollisionBatch::Response& response) {
   QueryCollision::Request request = common_request(batch);
-  const CollisionRequest collision = checked_request(request);
+  check_options(QueryQuestion(request).asked);
   const std::size_t motions = std::max(batch.motions.size(), batch.link_motions.size());
   const auto most = static_cast<std::size_t>(node_.parameters.max_batch);
   if (motions > most) {
@@ -156,38 +154,31 @@ void QueryServices::answer_batch(const Batch& batch, QueryCollisionBatch::Respon
            " (max_batch): ask in several batches");
   }
   check_names(request, false);
-  std::vector<BatchOrgan> organs;
+  std::vector<QueryQuestion> questions;
   in_node_thread_([&] {
     for (const std::string& organ : asked_organs(node_, batch.organ)) {
       request.organ = organ;
-      BatchOrgan& asked = organs.emplace_back();
-      asked.unanswered = unanswered(request);
-      asked.collision = collision;
-      asked.snapshot = take_snapshot(node_, request, false, asked.unanswered);
+      questions.emplace_back(request).complete(node_, false);
     }
   });
-  check_lists(batch, organs.front().snapshot.tool);
-  for (BatchOrgan& organ : organs) {
-    set_subject(organ.snapshot, request.organ_rests != 0, organ.collision);
-  }
+  check_lists(batch, questions.front().tool.get());
+  for (QueryQuestion& question : questions) question.wait_for_surface(kLongestInspection);
 
   const auto answer_motion = [&](std::size_t motion, ContactQuery& query) {
     const GivenMotion given{batch.motions.empty() ? nullptr : &batch.motions[motion],
                             batch.link_motions.empty() ? nullptr : &batch.link_motions[motion]};
     std::vector<ContactArray> answers;
-    for (const BatchOrgan& organ : organs) {
-      CollisionRequest moving = organ.collision;
-      ContactArray& answer = answers.emplace_back(organ.unanswered);
+    for (const QueryQuestion& question : questions) {
+      ContactArray& answer = answers.emplace_back(question.unanswered());
       try {
-        set_motion(given, organ.snapshot, moving);
-        query.evaluate(moving, answer);
+        query.evaluate(request_on(given, question), answer);
       } catch (const Rejection& rejection) {
         set_failure(answer, rejection.status(), rejection.what());
       }
     }
     return answers;
   };
-  for (const BatchOrgan& organ : organs) response.organs.push_back(organ.unanswered.organ);
+  for (const QueryQuestion& question : questions) response.organs.push_back(question.organ);
   answer_motions(motions, batch.stop_at_first_contact != 0, answer_motion, response);
 }
 
@@ -230,13 +221,6 @@ void QueryServices::answer_motions(std::size_t motions, bool stops_at_contact,
   };
   batch_threads_->run(motions, evaluate, take);
   ++counters_.batches;
-}
-
-QuerySnapshot QueryServices::snapshot_of(const QueryCollision::Request& request, bool in_tf,
-                                         ContactArray& answer) const {
-  QuerySnapshot snapshot;
-  in_node_thread_([&] { snapshot = take_snapshot(node_, request, in_tf, answer); });
-  return snapshot;
 }
 
 }  // namespace organ_collision

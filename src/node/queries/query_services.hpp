@@ -9,8 +9,8 @@
 namespace organ_collision {
 
 /// Serves `query` and `query_batch`: what a tool touches, or would touch. Each service has a thread
-/// of its own, beside that of the steps. From the node's thread, a service takes only a snapshot of
-/// what it needs to know.
+/// of its own, beside that of the steps. In the node's thread, a service only completes its
+/// question (QueryQuestion).
 ///
 /// Changes no organ and no history. Rejections become the status of the answer. Any other exception
 /// becomes PICKER_FAILED, with the text "the query failed: ...".
@@ -33,11 +33,11 @@ class QueryServices {
   // action directly.) At most one thread at a time may call each.
 
   ContactArray query(const QueryCollision::Request& request);
-  /// One snapshot of each organ and one look-up in TF serve the whole batch. A batch that fails as
-  /// a whole has a status and a message but no results. Among other reasons, it fails if it has
-  /// more motions than max_batch, if its results exceed max_batch_bytes, or if one of the organs
-  /// has no answer, for example because its mesh is stale. While the results are made, they exceed
-  /// max_batch_bytes by at most the answers to one motion for each thread.
+  /// One question about each organ, with one look-up in TF, serves the whole batch. A batch that
+  /// fails as a whole has a status and a message but no results. Among other reasons, it fails if
+  /// it has more motions than max_batch, if its results exceed max_batch_bytes, or if one of the
+  /// organs has no answer, for example because its mesh is stale. While the results are made, they
+  /// exceed max_batch_bytes by at most the answers to one motion for each thread.
   ///
   /// The results are in the order of the motions, whatever the number of threads, and for each
   /// motion in the order of the organs. If the request says so, they end with the first motion that
@@ -52,12 +52,10 @@ class QueryServices {
   void start_batches();
 
   // These throw Rejection and other exceptions.
-  void answer_one(const QueryCollision::Request& request, ContactArray& answer);
+  ContactArray answer_one(const QueryCollision::Request& request, QueryQuestion& question);
   void answer_batch(const Batch& batch, QueryCollisionBatch::Response& response);
   void answer_motions(std::size_t motions, bool stops_at_contact, const AnswerMotion& answer_motion,
                       QueryCollisionBatch::Response& response);
-  QuerySnapshot snapshot_of(const QueryCollision::Request& request, bool in_tf,
-                            ContactArray& answer) const;
 
   const NodeState node_;
   const InNodeThread in_node_thread_;

@@ -9,6 +9,7 @@
 
 #include "common/messages/text.hpp"
 #include "geometry/concatenate.hpp"
+#include "query/make_request.hpp"
 
 namespace organ_collision {
 namespace {
@@ -49,23 +50,6 @@ std::vector<std::uint32_t> touched_faces(const std::vector<Contact>& contacts) {
 }
 
 }  // namespace
-
-ContactArray answer_about(const std::string& organ, const std::string& tool, std::uint8_t mode,
-                          ros::Time stamp) {
-  ContactArray answer;
-  answer.header.stamp = stamp;
-  answer.step_start = stamp;
-  answer.organ = plain_text(organ, kLongestName);
-  answer.tool = plain_text(tool, kLongestName);
-  answer.mode = mode;
-  return answer;
-}
-
-void set_organ(ContactArray& answer, const DeformableOrgan& organ, const OrganShape& shape) {
-  answer.header.frame_id = organ.frame();
-  answer.topology = shape.mesh->topology();
-  answer.mesh_stamp = shape.stamp;
-}
 
 void set_failure(ContactArray& answer, std::uint8_t status, const std::string& message) {
   answer.status = status;
@@ -110,28 +94,14 @@ void set_memory(ContactArray& answer, const ContactArray* last) {
                       touched_now.end(), std::back_inserter(answer.released));
 }
 
-ContactArray failed_answer(const std::string& organ, const ToolParameters& tool,
-                           const std_msgs::Header& header, std::uint8_t status,
-                           const std::string& message) {
-  const ros::Time stamp = header.stamp.isZero() ? ros::Time::now() : header.stamp;
-  ContactArray answer = answer_about(organ, tool.name, ContactArray::STATIC, stamp);
-  answer.links = tool.links;
-  answer.header.frame_id = plain_text(tf_frame(header.frame_id), kLongestName);
-  set_failure(answer, status, message);
-  return answer;
-}
-
 void count_failure(FailureLog& log, std::uint8_t status, const std::string& message) {
   if (status == ContactArray::OK) return;
   log.add(reason_of(status), message, std::chrono::steady_clock::now());
 }
 
-bool is_stale(const OrganShape& shape, ros::Time now, double timeout_sec) {
-  return timeout_sec > 0.0 && shape.age(now) > timeout_sec;
-}
-
-std::string stale_message(const std::string& organ, const OrganShape& shape, ros::Time now,
-                          double timeout_sec) {
+std::string stale_fault(const std::string& organ, const OrganShape& shape, ros::Time now,
+                        double timeout_sec) {
+  if (!(timeout_sec > 0.0 && shape.age(now) > timeout_sec)) return "";
   return concatenate("the last shape of organ '", organ, "' came ", duration_text(shape.age(now)),
                      " ago; at most ", timeout_sec, " s are allowed (mesh_timeout_sec)");
 }
@@ -209,15 +179,10 @@ ContactQuery::ContactQuery(const PickerSettings& picker) : query_(picker) {
   const TriangleMesh face({-1.0f, -1.0f, 0.0f, 1.0f, -1.0f, 0.0f, 0.0f, 1.0f, 0.0f}, {0, 1, 2});
   const ShaftAxis above{{0.0, 0.0, 1.0}, {0.1, 0.0, 0.5}},
       through{{0.0, 0.0, 1.0}, {0.2, 0.0, -0.5}};
-  CollisionRequest request;
-  request.organ = &face;
-  request.path = {{0.0, above}, {1.0, through}};
-  request.radius = 0.01;
-  request.regions = true;
   for (const QueryMode mode : {QueryMode::kStatic, QueryMode::kSwept, QueryMode::kPaperStatic,
                                QueryMode::kPaperSwept, QueryMode::kPaperNaive}) {
-    request.mode = mode;
-    query_.evaluate(request, result_);
+    query_.evaluate(make_request({&face}, {0.01}, {mode, true}, {{0.0, above}, {1.0, through}}),
+                    result_);
   }
 }
 

@@ -12,15 +12,6 @@
 
 namespace organ_collision {
 
-/// An answer without contacts, about one organ and one tool. It names no links. Its header.stamp
-/// and step_start are `stamp`. The names may come from a message and be illegal: the answer has
-/// them as plain text of at most kLongestName bytes.
-ContactArray answer_about(const std::string& organ, const std::string& tool, std::uint8_t mode,
-                          ros::Time stamp);
-
-/// Sets frame, topology and mesh stamp to those of the shape that the answer is about.
-void set_organ(ContactArray& answer, const DeformableOrgan& organ, const OrganShape& shape);
-
 /// Sets the status and the message, and drops all results. The message becomes plain text of at
 /// most kLongestMessage bytes.
 void set_failure(ContactArray& answer, std::uint8_t status, const std::string& message);
@@ -34,20 +25,13 @@ void set_incomplete(ContactArray& answer, const std::string& unknown);
 /// is none, or it was about other triangles.
 void set_memory(ContactArray& answer, const ContactArray* last);
 
-/// The answer about an organ that could not be evaluated at all, for example because its mesh was
-/// refused. `header`: the frame and the stamp of the answer; a zero stamp becomes the present time.
-ContactArray failed_answer(const std::string& organ, const ToolParameters& tool,
-                           const std_msgs::Header& header, std::uint8_t status,
-                           const std::string& message);
-
 /// Counts an answer that failed. An answer with the status OK is not counted.
 void count_failure(FailureLog& log, std::uint8_t status, const std::string& message);
 
-/// Whether the shape came longer ago than `timeout_sec`. If `timeout_sec` is 0, no shape is stale.
-bool is_stale(const OrganShape& shape, ros::Time now, double timeout_sec);
-/// The message for the status STALE_MESH, with the age and the limit.
-std::string stale_message(const std::string& organ, const OrganShape& shape, ros::Time now,
-                          double timeout_sec);
+/// The message for the status STALE_MESH, with the age and the limit, if the shape came longer ago
+/// than `timeout_sec`. Otherwise empty. If `timeout_sec` is 0, no shape is stale.
+std::string stale_fault(const std::string& organ, const OrganShape& shape, ros::Time now,
+                        double timeout_sec);
 
 // These copy all fields. Lengths are in metres, and positions and directions stay in the same
 // frame.

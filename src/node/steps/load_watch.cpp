@@ -15,28 +15,28 @@ double seconds(LoadWatch::Time from, LoadWatch::Time to) {
 }
 
 /// The tool and the organ of a step, and what makes its query long.
-std::string description(const ToolStep& step, const Tool& tool) {
-  const CollisionRequest& request = step.request;
-  std::string text =
-      concatenate("tool '", tool.parameters.name, "', organ '", step.organ->name(), "' (",
-                  request.organ->face_count(),
-                  " faces): ", std::max<std::size_t>(request.path.size(), 2) - 1, " legs");
-  if (request.links && !request.links->empty())
-    text += ", " + counted(request.links->size(), "link");
-  if (request.margin > 0.0) text += concatenate(", margin ", request.margin);
-  if (request.max_near > 0) text += concatenate(", max_near ", request.max_near);
-  if (request.placement) text += ", placement";
-  if (request.regions) text += ", regions";
+std::string description(const ToolStep& step) {
+  const Question& question = step.question;
+  const QueryOptions& asked = question.asked;
+  const std::size_t legs = std::max<std::size_t>(question.sampled.path.size(), 2) - 1;
+  std::string text = concatenate("tool '", question.tool_name, "', organ '", question.organ, "' (",
+                                 question.shape.mesh->face_count(), " faces): ", legs, " legs");
+  const std::size_t links = question.tool->links.size();
+  if (links > 0) text += ", " + counted(links, "link");
+  if (asked.margin > 0.0) text += concatenate(", margin ", asked.margin);
+  if (asked.max_near > 0) text += concatenate(", max_near ", asked.max_near);
+  if (asked.placement) text += ", placement";
+  if (asked.regions) text += ", regions";
   return text + concatenate("; ", step.answer->contacts.size(), " contacts");
 }
 
 }  // namespace
 
-void LoadWatch::add(const ToolStep& step, const Tool& tool) {
+void LoadWatch::add(const ToolStep& step) {
   has_steps_ = true;
   if (step.query_sec <= period_.slowest_sec) return;
   period_.slowest_sec = step.query_sec;
-  period_.slowest = description(step, tool);
+  period_.slowest = description(step);
 }
 
 void LoadWatch::add_round(Time begin, Time end, std::uint64_t merged) {

@@ -18,7 +18,7 @@ class LoadWatch {
   static constexpr std::chrono::seconds kPeriod{1};
 
   /// Notes a step that was answered.
-  void add(const ToolStep& step, const Tool& tool);
+  void add(const ToolStep& step);
   /// Notes the end of a round. A round without steps does not count. `merged`: how many inputs,
   /// since the start, shared a step with a later one.
   void add_round(Time begin, Time end, std::uint64_t merged);

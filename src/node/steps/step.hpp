@@ -5,9 +5,7 @@
 #include <memory>
 
 #include "contact_array.hpp"
-#include "node/motion/tool_poses.hpp"
-#include "node/tools/tool.hpp"
-#include "organ_collision/geometry/organ/triangle_mesh.hpp"
+#include "question.hpp"
 
 namespace organ_collision {
 
@@ -97,9 +95,15 @@ using StepHistory = std::map<std::pair<std::string, std::size_t>, OrganToolPair>
 /// a worker finds the answer, and the scheduler publishes it. If a step fails before it is
 /// evaluated, the scheduler sets its answer at once.
 struct ToolStep {
-  const DeformableOrgan* organ;
   std::size_t tool;
   OrganToolPair* pair;
+  /// Its path and its speed are found by the evaluation. Everything else is set when the step is
+  /// planned, because other threads may change it meanwhile. Its path is empty if the step failed
+  /// before it was evaluated.
+  Question question = {};
+  bool is_of_shape = false;  ///< a new shape made the step due, and not a pose or a tick
+  /// The answer of the last step. Null: there is none, or it was about other triangles.
+  ContactArrayConstPtr last_answer = nullptr;
   /// True: the tool moves from its last pose to `end`, on the path that TF knows. False: the tool
   /// rests at `end`, because it has no last pose, or because no newer pose is known.
   bool moves = false;
@@ -107,17 +111,12 @@ struct ToolStep {
   /// True: the step has no transform, but TF may still be starting, because the pair has had no
   /// successful step yet. Nobody is warned in that case.
   bool is_starting = false;
-  bool is_of_shape = false;  ///< a new shape made the step due, and not a pose or a tick
 
   // What the evaluation finds.
 
   ContactArrayPtr answer = nullptr;
-  /// Its path is empty if none was known when the step failed. Its `surface_topology` is set when
-  /// the step is planned, because another thread may find the surface out meanwhile.
-  CollisionRequest request = {};
-  SampledPath sampled = {};  ///< how the path was sampled; the path itself is in `request`
-  double query_sec = 0.0;    ///< [s] how long the query took; 0 if there was no query
-  PickCounts picked = {};    ///< the faces that the query looked at one by one
+  double query_sec = 0.0;  ///< [s] how long the query took; 0 if there was no query
+  PickCounts picked = {};  ///< the faces that the query looked at one by one
 };
 
 }  // namespace organ_collision

@@ -24,8 +24,10 @@ bool is_answered(const OrganToolPair& pair, ros::Time pose) {
          pose <= pair.last->stamp;
 }
 
-QueryMode mode_of(const OrganToolPair& pair) {
-  return pair.last ? QueryMode::kSwept : QueryMode::kStatic;
+void set_stamps(ToolStep& step, ros::Time end) {
+  const std::optional<LastStep>& last = step.pair->last;
+  step.question.start = last ? last->stamp : end;
+  step.question.end = end;
 }
 
 }  // namespace
@@ -138,9 +140,8 @@ void StepScheduler::plan_front(const DeformableOrgan& organ, std::size_t tool,
   }
   pair.current = std::move(front.shape);
   pair.waiting.erase(pair.waiting.begin());
-  ToolStep step{&organ, tool, &pair};
-  step.is_of_shape = true;
-  plan_step(std::move(step), std::move(end), stamp.isZero() ? ros::Time::now() : stamp);
+  plan_step(begin_step(organ, tool, pair, true), std::move(end),
+            stamp.isZero() ? ros::Time::now() : stamp);
 }
 
 /// Plans a step against the pair's current shape, with the latest pose. `only_new`: plans no step
@@ -149,12 +150,12 @@ void StepScheduler::plan_latest(const DeformableOrgan& organ, std::size_t tool, 
   OrganToolPair& pair = history_[{organ.name(), tool}];
   if (!pair.current.mesh) return;  // Its first shape still waits for a transform.
   forget_if_disproved(organ, tool, pair);
-  ToolStep step{&organ, tool, &pair};
+  ToolStep step = begin_step(organ, tool, pair, false);
   const ros::Time now = ros::Time::now();
-  const double timeout_sec = parameters_.mesh_timeout_sec;
-  if (tools_[tool].fault.empty() && is_stale(pair.current, now, timeout_sec)) {
-    return plan_failure(std::move(step), now, ContactArray::STALE_MESH,
-                        stale_message(organ.name(), pair.current, now, timeout_sec));
+  const std::string stale =
+      stale_fault(organ.name(), pair.current, now, parameters_.mesh_timeout_sec);
+  if (tools_[tool].fault.empty() && !stale.empty()) {
+    return plan_failure(std::move(step), now, ContactArray::STALE_MESH, stale);
   }
   auto end = poses_.pose(tools_[tool], organ.frame(), ros::Time(0));
   if (only_new && end.found && is_answered(pair, end.found->stamp)) return;
@@ -242,6 +243,32 @@ std::optional<SteadyTime> StepScheduler::next_deadline() const {
   return next;
 }
 
+/// A step of which it is not known yet when and where it ends.
+ToolStep StepScheduler::begin_step(const DeformableOrgan& organ, std::size_t tool,
+                                   OrganToolPair& pair, bool is_of_shape) const {
+  const ToolParameters& parameters = tools_[tool].parameters;
+  ToolStep step{tool, &pair};
+  step.is_of_shape = is_of_shape;
+  Question& question = step.question;
+  question.tool = {std::shared_ptr<const Tool>(), &tools_[tool]};
+  question.tool_name = parameters.name;
+  question.asked.mode = pair.last ? QueryMode::kSwept : QueryMode::kStatic;
+  question.asked.regions = parameters_.publish_regions;
+  question.asked.margin = parameters.margin;
+  question.asked.max_near = static_cast<std::size_t>(parameters.max_near);
+  question.asked.placement = parameters_.publish_placement;
+  question.set_organ(organ, pair.current);
+  question.wait_for_surface({});
+  const bool has_last = pair.last && has_same_faces(*pair.last, *pair.current.mesh);
+  if (has_last) step.last_answer = pair.last->answer;
+  if (!parameters_.organ_motion) return step;
+  // A shape that makes its step due, or after which newer shapes have come, is not overdue.
+  const bool is_old = is_of_shape || pair.current.mesh != organ.latest().mesh;
+  question.set_organ_motion(has_last ? pair.last->mesh : nullptr,
+                            is_old ? pair.current.received : ros::Time::now());
+  return step;
+}
+
 /// Plans a step that ends at `end`. If `end` is not newer than the last pose, the tool rests at its
 /// last pose. `failure`: the stamp of the answer if the tool has a fault or no pose.
 void StepScheduler::plan_step(ToolStep step, Lookup<ToolPose> end, ros::Time failure) {
@@ -261,14 +288,15 @@ void StepScheduler::plan_step(ToolStep step, Lookup<ToolPose> end, ros::Time fai
   if (is_of_now) step.end->stamp = std::max(ros::Time::now(), last ? last->stamp : ros::Time());
   step.moves = last && (is_of_now || step.end->stamp > last->stamp);
   if (last && !step.moves) step.end = Timed<ToolPose>{last->pose, last->stamp};
-  step.request.surface_topology = pair.current.topology();
+  set_stamps(step, step.end->stamp);
   due_.push_back(std::move(step));
 }
 
 /// Plans a step that fails: its answer says why.
 void StepScheduler::plan_failure(ToolStep step, ros::Time stamp, std::uint8_t status,
                                  const std::string& message) {
-  begin_answer(step, stamp);
+  set_stamps(step, stamp);
+  step.answer = boost::make_shared<ContactArray>(step.question.unanswered());
   set_failure(*step.answer, status, message);
   due_.push_back(std::move(step));
 }
@@ -276,68 +304,25 @@ void StepScheduler::plan_failure(ToolStep step, ros::Time stamp, std::uint8_t st
 /// Finds the answer of a step. Several threads call this at the same time for different steps: it
 /// changes only the step. `query` belongs to the calling thread.
 void StepScheduler::answer(ToolStep& step, ContactQuery& query) const {
-  const Tool& tool = tools_[step.tool];
   const std::optional<LastStep>& last = step.pair->last;
-  const TriangleMesh& mesh = *step.pair->current.mesh;
-  CollisionRequest& request = step.request;
-  request.organ = &mesh;
-  const LastStep* comparable = last && has_same_faces(*last, mesh) ? &*last : nullptr;
-  if (comparable && comparable->mesh.get() != &mesh && parameters_.organ_motion) {
-    request.organ_before = comparable->mesh.get();
+  Question& question = step.question;
+  std::optional<Timed<ToolPose>> from;
+  if (step.moves) from = {last->pose, last->stamp};
+  question.follow(poses_, from, *step.end, ros::Time::now());
+  SampledPath& sampled = question.sampled;
+  if (is_behind_ && sampled.samples_cut > 0 && sampled.unknown.empty()) {
+    sampled.unknown = concatenate(
+        sampled.samples_cut,
+        " samples of the tool's motion were left out (motion_samples_max), because the node "
+        "falls behind");
   }
-  request.radius = tool.parameters.radius;
-  request.links = &tool.links;
-  request.mode = mode_of(*step.pair);
-  request.regions = parameters_.publish_regions;
-  request.margin = tool.parameters.margin;
-  request.max_near = static_cast<std::size_t>(tool.parameters.max_near);
-  request.placement = parameters_.publish_placement;
-  request.tip = step.end->value.tip;
-  if (step.moves) {
-    step.sampled = poses_.path(tool, step.organ->frame(), {last->pose, last->stamp}, *step.end);
-    request.path = std::move(step.sampled.path);
-    if (is_behind_ && step.sampled.samples_cut > 0 && step.sampled.unknown.empty()) {
-      step.sampled.unknown = concatenate(
-          step.sampled.samples_cut,
-          " samples of the tool's motion were left out (motion_samples_max), because the node "
-          "falls behind");
-    }
-  } else {
-    request.path = resting_path(step.end->value);
-  }
-  set_velocities(step);
-  begin_answer(step, step.end->stamp);
+  CollisionRequest request = question.request(std::move(sampled.path));
+  step.answer = boost::make_shared<ContactArray>(question.unanswered());
   step.query_sec = query.evaluate(request, *step.answer);
   step.picked = query.picked();
-  set_incomplete(*step.answer, step.sampled.unknown);
-  set_memory(*step.answer, comparable ? comparable->answer.get() : nullptr);
-}
-
-/// Sets from where the velocities of tissue and tool count. A shape that makes its step due, or
-/// after which newer shapes have come, is not overdue.
-void StepScheduler::set_velocities(ToolStep& step) const {
-  const OrganShape& shape = step.pair->current;
-  CollisionRequest& request = step.request;
-  const ros::Time now = ros::Time::now();
-  const bool is_old = step.is_of_shape || shape.mesh != step.organ->latest().mesh;
-  if (parameters_.organ_motion) {
-    request.velocity_from = shape.moves_from(is_old ? shape.received : now).get();
-    request.velocity_sec = shape.motion_sec;
-  }
-  if (!asks_for_clearance(request) || request.mode == QueryMode::kStatic) return;
-  request.pose_before = poses_.pose_before(tools_[step.tool], step.organ->frame(), *step.end, now);
-  request.pose_before_sec = kVelocitySec;
-}
-
-/// Sets an answer whose results are still empty. `end`: its stamp.
-void StepScheduler::begin_answer(ToolStep& step, ros::Time end) const {
-  const ToolParameters& tool = tools_[step.tool].parameters;
-  const OrganToolPair& pair = *step.pair;
-  step.answer = boost::make_shared<ContactArray>(
-      answer_about(step.organ->name(), tool.name, static_cast<std::uint8_t>(mode_of(pair)), end));
-  step.answer->links = tool.links;
-  set_organ(*step.answer, *step.organ, pair.current);
-  if (pair.last) step.answer->step_start = pair.last->stamp;
+  sampled.path = std::move(request.path);
+  set_incomplete(*step.answer, sampled.unknown);
+  set_memory(*step.answer, step.last_answer.get());
 }
 
 /// Publishes the answer of a step. If it is OK, the next step of the pair begins where this one
@@ -345,13 +330,14 @@ void StepScheduler::begin_answer(ToolStep& step, ros::Time end) const {
 void StepScheduler::deliver(ToolStep& step) {
   OrganToolPair& pair = *step.pair;
   if (step.is_of_shape) ++counts_.answered;
-  counts_.samples_cut += step.sampled.samples_cut;
-  counts_.deviation_cut = std::max(counts_.deviation_cut, step.sampled.deviation_cut);
+  const SampledPath& sampled = step.question.sampled;
+  counts_.samples_cut += sampled.samples_cut;
+  counts_.deviation_cut = std::max(counts_.deviation_cut, sampled.deviation_cut);
   counts_.picked.drawn += step.picked.drawn;
   counts_.picked.undrawn += step.picked.undrawn;
   if (step.answer->status == ContactArray::OK) {
-    load_.add(step, tools_[step.tool]);
-    poses_.set_answered(tools_[step.tool], step.organ->frame(), step.end->stamp);
+    load_.add(step);
+    poses_.set_answered(tools_[step.tool], step.question.frame, step.end->stamp);
     pair.last =
         LastStep{std::move(step.end->value), step.end->stamp, pair.current.mesh, now_, step.answer};
     pair.tried.reset();

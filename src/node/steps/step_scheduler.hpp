@@ -110,6 +110,8 @@ class StepScheduler {
   void plan_latest(const DeformableOrgan& organ, std::size_t tool, bool only_new);
   void plan_long_steps();
   bool forget_if_disproved(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair);
+  ToolStep begin_step(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair,
+                      bool is_of_shape) const;
   void plan_step(ToolStep step, Lookup<ToolPose> end, ros::Time failure);
   void plan_failure(ToolStep step, ros::Time stamp, std::uint8_t status,
                     const std::string& message);
@@ -117,8 +119,6 @@ class StepScheduler {
   void evaluate_all();
   bool evaluate_due();
   void answer(ToolStep& step, ContactQuery& query) const;
-  void set_velocities(ToolStep& step) const;
-  void begin_answer(ToolStep& step, ros::Time end) const;
   void deliver(ToolStep& step);
   void begin_with_latest_shapes(std::size_t tool);
   SteadyTime deadline(const WaitingShape& shape) const;

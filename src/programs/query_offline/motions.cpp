@@ -12,14 +12,13 @@
 
 namespace organ_collision {
 
-CollisionRequest request_of(const Motion& motion) {
-  CollisionRequest request;
-  if (!is_static_mode(motion.mode))
-    request.path = {{0.0, {motion.previous_trocar, motion.previous}}};
-  request.path.push_back({1.0, {motion.trocar, motion.tip}});
-  request.radius = motion.radius;
-  request.mode = motion.mode;
-  return request;
+CollisionRequest request_of(const Motion& motion, const AskedOrgan& organ, QueryOptions asked) {
+  ToolPath path;
+  if (!is_static_mode(motion.mode)) path = {{0.0, {motion.previous_trocar, motion.previous}}};
+  path.push_back({1.0, {motion.trocar, motion.tip}});
+  if (is_paper_mode(motion.mode)) asked = {};
+  asked.mode = motion.mode;
+  return make_request(organ, {motion.radius}, asked, std::move(path));
 }
 
 namespace {
@@ -67,8 +66,7 @@ constexpr std::pair<std::string_view, QueryMode> kModes[] = {
 /// The message names the value and what is legal.
 void check_motion(const Motion& motion) {
   static const TriangleMesh any_organ({0.0F, 0.0F, 0.0F}, {0, 0, 0});
-  CollisionRequest request = request_of(motion);
-  request.organ = &any_organ;
+  const CollisionRequest request = request_of(motion, {&any_organ});
   check(request);
   if (is_paper_mode(motion.mode)) paper_volume(request);
 }

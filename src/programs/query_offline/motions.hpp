@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "organ_collision/query/collision_query.hpp"
+#include "query/make_request.hpp"
 #include "text_reader.hpp"
 
 namespace organ_collision {
@@ -25,8 +25,8 @@ struct Motion {
   double radius = 0.0;       ///< [m] the radius of the shaft
 };
 
-/// The query about a motion, without an organ.
-CollisionRequest request_of(const Motion& motion);
+/// The request about a motion, in the mode of the motion. The paper's modes ask for nothing else.
+CollisionRequest request_of(const Motion& motion, const AskedOrgan& organ, QueryOptions asked = {});
 
 /// The motions of a CSV file, or of standard input, in the order in which they are answered. The
 /// columns are query, mode, trocar_x, trocar_y, trocar_z, previous_x, previous_y, previous_z,

@@ -246,16 +246,14 @@ class Evaluation {
 
   void append_answer(std::size_t number, CollisionQuery& query, std::string& csv) const {
     const Motion& motion = motions_[number];
-    CollisionRequest request = request_of(motion);
-    shapes_.set_shapes(number, request);
-    if (!is_paper_mode(motion.mode)) {
-      request.margin = questions_.margin;
-      request.clearance = questions_.clearance;
-      request.placement = questions_.placement;
-      request.surface_topology = topology_ ? &*topology_ : nullptr;
-    }
+    AskedOrgan organ = shapes_.shapes_of(number);
+    organ.topology = topology_ ? &*topology_ : nullptr;
+    QueryOptions asked;
+    asked.margin = questions_.margin;
+    asked.clearance = questions_.clearance;
+    asked.placement = questions_.placement;
     CollisionResult result;
-    query.evaluate(request, result);
+    query.evaluate(request_of(motion, organ, asked), result);
     append_contacts(motion, result, questions_, csv);
     if (questions_.blank_lines) csv += '\n';
   }

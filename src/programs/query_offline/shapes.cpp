@@ -296,11 +296,10 @@ void ShapeSource::get(std::size_t count, QueryWorkers& threads) {
       [&](std::size_t) { next_ = begin + ++count_; });
 }
 
-void ShapeSource::set_shapes(std::size_t motion, CollisionRequest& request) const {
-  request.organ = files_.empty() ? &first_ : &shapes_[motion + 1];
+AskedOrgan ShapeSource::shapes_of(std::size_t motion) const {
+  if (files_.empty()) return {&first_, before_ ? &*before_ : nullptr};
   const bool is_first_step = next_ - count_ + motion == 0;
-  if (files_.empty() && before_) request.organ_before = &*before_;
-  if (!files_.empty() && !is_first_step) request.organ_before = &shapes_[motion];
+  return {&shapes_[motion + 1], is_first_step ? nullptr : &shapes_[motion]};
 }
 
 /// Moves `shape` to the vertices of a file. Throws InputError if the file is missing, is not legal

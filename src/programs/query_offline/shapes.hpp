@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "organ_collision/geometry/organ/triangle_mesh.hpp"
-#include "organ_collision/query/collision_query.hpp"
+#include "query/make_request.hpp"
 #include "query/worker_threads.hpp"
 
 namespace organ_collision {
@@ -73,8 +73,8 @@ class ShapeSource {
   void get(std::size_t count, QueryWorkers& threads);
   /// For how many motions the round has shapes. It is less than was asked for if there are no more.
   std::size_t count() const { return count_; }
-  /// Asks about the shapes that a motion of the present round meets.
-  void set_shapes(std::size_t motion, CollisionRequest& request) const;
+  /// The shapes that a motion of the present round meets.
+  AskedOrgan shapes_of(std::size_t motion) const;
   /// How many recorded shapes need motions after this round.
   std::size_t remaining() const { return files_.size() - next_; }
   /// The first shape. All others have the same faces.

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "common/messages/checked_messages.hpp"
-#include "node/steps/contact_array.hpp"
+#include "node/steps/question.hpp"
 #include "organ_collision/ros/names.hpp"
 
 namespace organ_collision {

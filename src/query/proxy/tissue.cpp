@@ -10,6 +10,8 @@ namespace {
 /// [m] The radius of a middle line, and of a shaft that is made as thin as its axis.
 constexpr double kAxisRadius = 1e-6;
 
+constexpr QueryOptions kPlacement{QueryMode::kStatic, false, 0.0, 0, false, true};
+
 /// The middle line of a part: the segment through the middle of its box, along the longest side.
 LinkPart middle_line(const LinkPart& part) {
   const OrientedBox& box = part.bounds;
@@ -44,21 +46,18 @@ void Tissue::touch(const std::vector<ToolPose>& way, double growth,
                    std::vector<TissueContact>& contacts, Organs organs) {
   contacts.clear();
   grow(growth);
-  const std::vector<Link>& links = growth < 0.0 ? middle_lines_ : grown_links_;
   for (std::size_t organ = 0; organ < organs_->size(); ++organ) {
     const OrganTick& tick = (*organs_)[organ];
-    CollisionRequest question;
-    question.organ = tick.now;
-    question.radius = radius_;
-    if (!links.empty()) question.links = &links;
-    question.mode = way.size() == 1 ? QueryMode::kStatic : QueryMode::kSwept;
-    question.path = {waypoint(0.0, organs == Organs::kMove ? tick.T_before : tick.T_now, way[0])};
+    const bool moves = organs == Organs::kMove;
+    ToolPath path = {waypoint(0.0, moves ? tick.T_before : tick.T_now, way[0])};
     for (std::size_t i = 1; i < way.size(); ++i) {
       const double fraction = static_cast<double>(i) / static_cast<double>(way.size() - 1);
-      question.path.push_back(waypoint(fraction, tick.T_now, way[i]));
+      path.push_back(waypoint(fraction, tick.T_now, way[i]));
     }
-    if (organs == Organs::kMove && tick.before != tick.now) question.organ_before = tick.before;
-    query_.evaluate(question, result_);
+    const QueryMode mode = path.size() == 1 ? QueryMode::kStatic : QueryMode::kSwept;
+    query_.evaluate(make_request({tick.now, moves ? tick.before : nullptr}, grown_tool(), {mode},
+                                 std::move(path)),
+                    result_);
     const Eigen::Isometry3d T_proxy_organ = tick.T_now.inverse();
     for (const FaceContact& found : result_.contacts) {
       TissueContact contact{organ, found, growth_of(found.link) - found.depth};
@@ -103,13 +102,9 @@ std::vector<ProxyCrossing> Tissue::cross(const ShaftAxis& axis) {
 /// Where an axis is. Without a topology, the sides of its ends are not looked for.
 const AxisPlacement& Tissue::placement(const OrganTick& organ, const ShaftAxis& axis,
                                        const SurfaceTopology* topology) {
-  CollisionRequest question;
-  question.organ = organ.now;
-  question.radius = kAxisRadius;
-  question.path = {waypoint(0.0, organ.T_now, {axis, {}, {}})};
-  question.placement = true;
-  question.surface_topology = topology;
-  query_.evaluate(question, result_);
+  query_.evaluate(make_request({organ.now, nullptr, nullptr, 0.0, topology}, {kAxisRadius},
+                               kPlacement, {waypoint(0.0, organ.T_now, {axis, {}, {}})}),
+                  result_);
   return result_.placement;
 }
 
@@ -128,6 +123,10 @@ void Tissue::grow(double growth) {
 double Tissue::growth_of(std::int32_t link) const {
   if (link == kShaft) return radius_ - tool_.radius;
   return growth_ < 0.0 ? kAxisRadius : growth_;
+}
+
+AskedTool Tissue::grown_tool() const {
+  return {radius_, growth_ < 0.0 ? &middle_lines_ : &grown_links_};
 }
 
 }  // namespace organ_collision

@@ -5,6 +5,7 @@
 
 #include "organ_collision/query/collision_query.hpp"
 #include "organ_collision/query/haptic_proxy.hpp"
+#include "query/make_request.hpp"
 
 namespace organ_collision {
 
@@ -67,6 +68,7 @@ class Tissue {
  private:
   void grow(double growth);
   double growth_of(std::int32_t link) const;
+  AskedTool grown_tool() const;
   const AxisPlacement& placement(const OrganTick& organ, const ShaftAxis& axis,
                                  const SurfaceTopology* topology);
 

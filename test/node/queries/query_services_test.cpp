@@ -304,8 +304,9 @@ TEST_F(QueryServicesTest, AToolOfTFMeetsTheOrganWhereItsLastStepLeftIt) {
   request.tool = "hook";
   request.motion = {};
   const auto shape_before = [&] {
-    ContactArray answer;
-    return take_snapshot({parameters, tools, pipeline}, request, true, answer).shape_before;
+    QueryQuestion question(request);
+    question.complete({parameters, tools, pipeline}, true);
+    return question.request({}).organ_before;
   };
   send_tip(1.0, kAboveOrgan);
   evaluate();
@@ -349,19 +350,19 @@ TEST_F(QueryServicesTest, PosesThatRestAreOfThePresentAlsoIfTheLastStepWasLater)
   EXPECT_EQ(answer.step_start, ros::Time(60));
 }
 
-TEST_F(QueryServicesTest, ASnapshotStaysAsItIsWhileTheNodeGoesOn) {
+TEST_F(QueryServicesTest, AQuestionStaysAsItIsWhileTheNodeGoesOn) {
   send_vertices(1.1, 0.5);
   request.tool = "hook";
-  ContactArray answer;
-  const QuerySnapshot snapshot =
-      take_snapshot({parameters, tools, pipeline}, request, false, answer);
-  EXPECT_EQ(answer.mesh_stamp, ros::Time(1.1));
-  EXPECT_EQ(answer.topology, 1u);
+  QueryQuestion question(request);
+  question.complete({parameters, tools, pipeline}, false);
   for (int i = 0; i < 5; ++i) send_vertices(2.0 + i, 9.0);
   tools.clear();
-  EXPECT_EQ(snapshot.latest.mesh->vertices()[2], 0.5F);
-  EXPECT_EQ(snapshot.shape_before->vertices()[2], 0.0F);
-  EXPECT_EQ(snapshot.tool->parameters.radius, 0.01);
+  EXPECT_EQ(question.unanswered().mesh_stamp, ros::Time(1.1));
+  EXPECT_EQ(question.unanswered().topology, 1u);
+  const CollisionRequest asked = question.request({});
+  EXPECT_EQ(asked.organ->vertices()[2], 0.5F);
+  EXPECT_EQ(asked.organ_before->vertices()[2], 0.0F);
+  EXPECT_EQ(asked.radius, 0.01);
 }
 
 TEST_F(QueryServicesTest, ARefusalLeavesWhatIsKnownInTheAnswer) {

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "common/messages/text.hpp"
+#include "node/steps/question.hpp"
 
 using namespace organ_collision;
 
@@ -25,12 +26,22 @@ std::string fields_of(const Message& message) {
   return text;
 }
 
+Question about_hook() {
+  Question question;
+  question.organ = "liver";
+  question.tool_name = "hook";
+  question.start = question.end = ros::Time(11);
+  return question;
+}
+
 }  // namespace
 
 TEST(Answers, AboutAnOrganAndATool) {
   const DeformableOrgan organ = liver();
-  ContactArray answer = answer_about("liver", "hook", ContactArray::SWEPT, ros::Time(11));
-  set_organ(answer, organ, organ.latest());
+  Question question = about_hook();
+  question.asked.mode = QueryMode::kSwept;
+  question.set_organ(organ, organ.latest());
+  const ContactArray answer = question.unanswered();
   ContactArray expected;
   expected.organ = "liver";
   expected.tool = "hook";
@@ -43,7 +54,7 @@ TEST(Answers, AboutAnOrganAndATool) {
 }
 
 TEST(Answers, AFailureIsEmpty) {
-  const ContactArray empty = answer_about("liver", "hook", ContactArray::STATIC, ros::Time(11));
+  const ContactArray empty = about_hook().unanswered();
   ContactArray answer = empty, expected = empty;
   answer.contacts.resize(3);
   answer.released = {1};
@@ -100,7 +111,10 @@ TEST(Answers, RememberSinceWhenEachLinkTouchesEachFace) {
 
 TEST(Answers, TextThatCameWithAMessageIsPlainAndShort) {
   const std::string huge(10'000'000, 'x');
-  ContactArray answer = answer_about("o\n" + huge, "t\xFF" + huge, ContactArray::STATIC, {});
+  Question question;
+  question.organ = "o\n" + huge;
+  question.tool_name = "t\xFF" + huge;
+  ContactArray answer = question.unanswered();
   EXPECT_LE(answer.organ.size(), kLongestName);
   EXPECT_EQ(answer.organ.rfind("o xxx", 0), 0u) << answer.organ;
   EXPECT_LE(answer.tool.size(), kLongestName);
@@ -113,10 +127,10 @@ TEST(Answers, TextThatCameWithAMessageIsPlainAndShort) {
 TEST(Answers, StaleIsAShapeThatCameLongerAgoThanTheLimitWhateverItsStamp) {
   for (const ros::Time stamp : {ros::Time(10), ros::Time(), ros::Time(3600)}) {
     const OrganShape shape{nullptr, stamp, ros::Time(12)};
-    EXPECT_FALSE(is_stale(shape, ros::Time(99), 0.0));
-    EXPECT_FALSE(is_stale(shape, ros::Time(14), 2.0));
-    EXPECT_TRUE(is_stale(shape, ros::Time(14.1), 2.0));
-    EXPECT_FALSE(is_stale(shape, ros::Time(3), 2.0));  // The clock has jumped back.
+    EXPECT_EQ(stale_fault("liver", shape, ros::Time(99), 0.0), "");
+    EXPECT_EQ(stale_fault("liver", shape, ros::Time(14), 2.0), "");
+    EXPECT_NE(stale_fault("liver", shape, ros::Time(14.1), 2.0), "");
+    EXPECT_EQ(stale_fault("liver", shape, ros::Time(3), 2.0), "");  // The clock has jumped back.
   }
 }
 

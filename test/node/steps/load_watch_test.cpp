@@ -21,7 +21,7 @@ class LoadWatchTest : public testing::Test, protected NodeParts {
     watch = nullptr;
     step->query_sec = 1e-3 * static_cast<double>(busy.count());
     for (const milliseconds first = time; time - first < milliseconds(5000); time += period) {
-      load.add(*step, tools[0]);
+      load.add(*step);
       load.add_round(start + time, start + time + busy, total += merged);
     }
   }
