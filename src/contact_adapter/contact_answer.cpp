@@ -10,7 +10,7 @@
 #include "common/messages/failure_log.hpp"
 #include "common/messages/text.hpp"
 #include "geometry/concatenate.hpp"
-#include "organ_collision/query/query_mode.hpp"
+#include "organ_collision/query/collision_query.hpp"
 #include "organ_collision/ros/names.hpp"
 
 namespace organ_collision {

@@ -1,11 +1,36 @@
 #pragma once
 
 #include <cstddef>
-
-#include "gl_platform.hpp"
-#include "picker_kind.hpp"
+#include <stdexcept>
+#include <string>
 
 namespace organ_collision {
+
+/// How the candidate faces are found. All kinds lead to the same contacts.
+enum class PickerKind {
+  kFeedback,  ///< GL_FEEDBACK: one draw call; each vertex carries the number of its face
+  kSelect,    ///< GL_SELECT, as in the 1999 paper: each face is drawn under its own name
+  kCpu        ///< no OpenGL: outcodes alone; the paper's modes also clip in double precision
+};
+
+/// Where the OpenGL context for picking comes from. Both platforms draw with Mesa on the CPU, and
+/// pick the same faces.
+enum class GlPlatform {
+  kAuto,    ///< OSMesa if it gives a context, otherwise EGL
+  kOsmesa,  ///< libOSMesa; Mesa 25.1 and later do not contain it
+  kEgl      ///< libEGL with one of Mesa's software renderers; it draws into a few pixels in memory
+};
+
+/// The kind called "feedback", "select" or "cpu". Throws std::invalid_argument for any other name.
+PickerKind picker_kind(const std::string& name);
+/// The platform called "auto", "osmesa" or "egl". Throws std::invalid_argument for any other name.
+GlPlatform gl_platform(const std::string& name);
+
+/// An OpenGL call failed, or OpenGL picking does not work in this process. what() says what to
+/// install or change, if that is known.
+class GlError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 /// How many faces a picker looked at one by one. Outcodes reject the others.
 struct PickCounts {

@@ -9,7 +9,7 @@
 #include "common/messages/conversions.hpp"
 #include "common/program/user_input.hpp"
 #include "geometry/concatenate.hpp"
-#include "geometry/tool/least_rotation.hpp"
+#include "geometry/tool/leg_motion.hpp"
 
 namespace organ_collision {
 

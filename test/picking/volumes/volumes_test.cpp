@@ -317,8 +317,7 @@ Triangle random_face(const ShaftMotion& motion, Random& random) {
 
 /// Whether a point of the polygon's plane is inside, by the side of each edge on which it lies.
 /// `slack`: twice an area [m^2].
-bool contains(const ConvexPolygon& polygon, const Vector3d& point, const Vector3d& normal,
-              double slack) {
+bool contains(const Region& polygon, const Vector3d& point, const Vector3d& normal, double slack) {
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vector3d edge = polygon[(i + 1) % polygon.size()] - polygon[i];
     if (edge.cross(point - polygon[i]).dot(normal) < -slack) return false;
@@ -335,7 +334,7 @@ TEST(ClippedFace, HasThePointsOfTheFaceThatAreInTheVolume) {
     const ShaftMotion motion = random_motion(motion_kind(i), 0.3, random);
     const ViewingVolume volume = PartSweep(motion, 0.005).volume({});
     const Triangle face = shifted(random_face(motion, random), volume.origin());
-    const ConvexPolygon part = clipped(face, volume);
+    const Region part = clipped(face, volume);
     const Vector3d normal = twice_area(face).normalized();
     for (int k = 0; k < 20; ++k) {
       const double share = random.uniform(0, 1), other = random.uniform(0, 1 - share);
