@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "cases.hpp"
-#include "query/contact_refiner.hpp"
+#include "query/moving_part.hpp"
 
 namespace organ_collision::bench {
 namespace {
@@ -16,8 +16,8 @@ std::optional<FaceContact> refine_whole(const VolumeQuery& tool, const Triangle&
                                         const Triangle& now) {
   const auto touch = first_touch(tool.motion, {before, now}, tool.radius);
   if (!touch) return std::nullopt;
-  const PartLeg part{tool.motion, tool.radius, {tool.motion.end}};
-  return contact_of(*touch, part, {{before, now}, 0.0, 1.0, now});
+  const MovingShaft part(tool.motion, tool.radius, tool.motion.end);
+  return part.contact(*touch, {before, now}, now);
 }
 
 }  // namespace

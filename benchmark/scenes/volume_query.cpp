@@ -98,7 +98,7 @@ VolumeQuery::VolumeQuery(const ShaftMotion& motion, double radius, const Eigen::
     : motion(motion),
       radius(radius),
       extent(extent_from_trocar(motion, organ)),
-      volume(conservative_volume(motion, radius, {0.0, extent})),
+      volume(PartSweep(motion, radius).volume({0.0, extent})),
       half_spaces(half_spaces_of(volume)),
       solid(solid_of(half_spaces)),
       organ(organ) {}

@@ -18,7 +18,7 @@
 #include "common/messages/conversions.hpp"
 #include "common/program/program.hpp"
 #include "geometry/concatenate.hpp"
-#include "geometry/tool/least_rotation.hpp"
+#include "geometry/tool/leg_motion.hpp"
 #include "liver.hpp"
 #include "organ_collision/ros/names.hpp"
 

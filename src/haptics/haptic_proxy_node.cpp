@@ -11,7 +11,7 @@
 #include "common/threads/queues.hpp"
 #include "geometry/concatenate.hpp"
 #include "haptic_proxy.hpp"
-#include "organ_collision/picking/gl_error.hpp"
+#include "organ_collision/picking/picker_settings.hpp"
 #include "organ_collision/ros/names.hpp"
 
 namespace organ_collision {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "geometry/tool/least_rotation.hpp"
+#include "geometry/tool/leg_motion.hpp"
 
 namespace organ_collision {
 

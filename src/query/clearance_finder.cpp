@@ -3,20 +3,12 @@
 #include <algorithm>
 #include <limits>
 
-#include "geometry/distance/separating_plane.hpp"
-#include "geometry/distance/swept_box.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 
 namespace organ_collision {
 namespace {
 
 using Eigen::Vector3d;
-
-/// A box around the space that a part's core covers along the chord of a span.
-OrientedBox box_around(const Step& step, const LegSpan& span, const ToolPart& part) {
-  if (!part.shape) return box_around(step.shaft_motion(span));
-  return SweptBox(part.shape->bounds, step.link_motion(span, part.link), 0.0).bounds();
-}
 
 /// If more faces come near the chord of a span, then each leg is searched by itself. The first term
 /// is about what a search costs, and the second one what it finds.
@@ -92,10 +84,8 @@ std::optional<Approach> ClearanceFinder::nearest(const Step& step, double distan
 
 NearestAtEnd ClearanceFinder::find_near(const Step& step, const CollisionRequest& request,
                                         CollisionResult& result) {
-  std::size_t parts = step.has_shaft() ? 1 : 0;
-  for (std::size_t link = 0; link < step.link_count(); ++link) {
-    parts += step.link(link).parts.size();
-  }
+  std::size_t parts = 0;
+  for_each_part(step.at_end(), [&](const ToolPart&, const LegSpan&) { ++parts; });
   return find_near(step, request, result,
                    WorkBudget::for_near(request.max_near, parts * step.leg_count()));
 }
@@ -127,45 +117,29 @@ double ClearanceFinder::closing_speed(const Step& at_end, const CollisionRequest
                                       const Approach& end, const Vector3d& normal) {
   const ClosestPoints& closest = end.closest.closest;
   Vector3d velocity = -tissue_velocity(request, end.face, closest.barycentric);
-  const ToolPose& before = *request.pose_before;
-  Vector3d way;
-  if (!end.part.shape) {
-    way = at_end.shaft_end().axis.at(closest.shaft) - before.axis.at(closest.shaft);
-  } else {
-    const RigidMotion link(before.links[end.part.link], at_end.link_end(end.part.link).pose);
-    const Vector3d arm = closest.on_core - link.end().translation();
-    way = link.end().translation() - link.start().translation() +
-          link.angle() * link.axis().cross(arm);
-  }
-  velocity += way / request.pose_before_sec;
+  const PartOnLeg part(at_end, at_end.span_of(0), end.part);
+  velocity += part->moved_since(*request.pose_before, closest) / request.pose_before_sec;
   return normal.dot(velocity);
 }
 
 /// The contact whose fields describe an approach, as if it were a first touch.
 FaceContact ClearanceFinder::contact_of(const Step& step, const Approach& near) {
-  FaceContact contact;
-  with_part_leg(step, step.span_of(near.leg), near.part, [&](const PartLeg& part) {
-    contact = organ_collision::contact_of(FirstTouch{near.closest.time, near.closest.closest}, part,
-                                          step.face_leg(near.leg, near.face));
-  });
-  contact.face = near.face;
-  contact.vertices = step.organ().faces()[near.face];
-  return contact;
+  const PartOnLeg part(step, step.span_of(near.leg), near.part);
+  return contact_on(step, near.leg, *part, near.face, {near.closest.time, near.closest.closest});
 }
 
-/// Measures faces against a part of the tool on one leg, or along the chord of a span. The step,
-/// the part and `on_leg` must outlive this.
+/// Measures faces against a part of the tool on one leg, or along the chord of a span. The step
+/// must outlive this.
 class ClearanceFinder::LegSearch {
  public:
-  LegSearch(ClearanceFinder& finder, const Step& step, const LegSpan& span, const ToolPart& part,
-            const PartLeg& on_leg)
+  LegSearch(ClearanceFinder& finder, const Step& step, const LegSpan& span, const ToolPart& part)
       : finder_(finder),
         organ_(step.organ_motion(span)),
-        box_(box_around(step, span, part)),
         part_(part),
-        on_leg_(on_leg),
+        moving_(step, span, part),
+        box_(moving_->bounds()),
         leg_(span.begin),
-        radius_(part.surface_radius(step)),
+        radius_(moving_->surface_radius()),
         deviation_(span.deviation),
         rounding_(kRounding * (organ_.extent(Vector3d::Zero()) + box_.center.cwiseAbs().sum() +
                                box_.half_size.sum())) {
@@ -195,10 +169,8 @@ class ClearanceFinder::LegSearch {
     std::optional<ClosestApproach> closest;
     if (budget.is_used_up()) {
       budget.add_cut();
-    } else if (part_.is_surface()) {
-      closest = closest_approach(surface(), *on_leg_.core.link(), motion, bound(), budget);
     } else {
-      closest = closest_approach(on_leg_.core, motion, bound(), budget);
+      closest = moving_->closest_approach(motion, bound(), budget);
     }
     finder_.unmeasured_ += budget.cuts() - cuts;
     if (closest) turn_plane(closest->closest);
@@ -213,7 +185,6 @@ class ClearanceFinder::LegSearch {
   /// [1] The allowance for rounding of FixedPlane, as a share of the largest coordinates.
   static constexpr double kRounding = 1e-14;
 
-  const ToolSurface& surface() const { return *part_.shape->surface; }
   /// [m] The distance of a core and a face up to which the face is of interest.
   double bound() const { return finder_.nearest_.bound() + radius_ + deviation_; }
 
@@ -227,16 +198,14 @@ class ClearanceFinder::LegSearch {
 
   void set_plane() {
     const Vector3d normal = finder_.separation_.stableNormalized();
-    if (normal.isZero(0.0)) return;
-    plane_ = part_.is_surface() ? FixedPlane(normal, surface(), *on_leg_.core.link())
-                                : FixedPlane(normal, on_leg_.core);
+    if (!normal.isZero(0.0)) plane_ = moving_->plane(normal);
   }
 
   ClearanceFinder& finder_;
   const OrganMotion organ_;
+  const ToolPart part_;
+  const PartOnLeg moving_;
   const OrientedBox box_;
-  const ToolPart& part_;
-  const PartLeg& on_leg_;
   const std::size_t leg_;
   const double radius_, deviation_;  ///< [m] around the core, and of the span
   const double rounding_;            ///< [m]
@@ -261,16 +230,13 @@ void ClearanceFinder::find_approaches(const Step& step) {
 }
 
 void ClearanceFinder::search_leg(const Step& step, std::size_t leg, const ToolPart& part) {
-  const LegSpan span = step.span_of(leg);
-  with_part_leg(step, span, part, [&](const PartLeg& on_leg) {
-    LegSearch search(*this, step, span, part, on_leg);
-    const std::size_t left = search.visit([&](std::uint32_t face, const ClosestApproach& closest) {
-      search.add(face, closest);
-      return true;
-    });
-    if (left > 0) budget_.add_cut();
-    unmeasured_ += left;
+  LegSearch search(*this, step, step.span_of(leg), part);
+  const std::size_t left = search.visit([&](std::uint32_t face, const ClosestApproach& closest) {
+    search.add(face, closest);
+    return true;
   });
+  if (left > 0) budget_.add_cut();
+  unmeasured_ += left;
 }
 
 /// Fills `listed_` with the faces that come near the chord of a span. Returns whether they are few;
@@ -278,27 +244,20 @@ void ClearanceFinder::search_leg(const Step& step, std::size_t leg, const ToolPa
 bool ClearanceFinder::list_faces_near_chord(const Step& step, const LegSpan& span,
                                             const ToolPart& part) {
   const std::size_t most = most_listed(nearest_.found().size());
-  std::size_t left = 0;
   listed_.clear();
-  with_part_leg(step, span, part, [&](const PartLeg& on_chord) {
-    LegSearch search(*this, step, span, part, on_chord);
-    left = search.visit([&](std::uint32_t face, const ClosestApproach& /*closest*/) {
-      listed_.push_back(face);
-      return listed_.size() <= most;
-    });
-  });
-  return left == 0;
+  LegSearch search(*this, step, span, part);
+  return search.visit([&](std::uint32_t face, const ClosestApproach& /*closest*/) {
+    listed_.push_back(face);
+    return listed_.size() <= most;
+  }) == 0;
 }
 
 void ClearanceFinder::measure_listed_faces(const Step& step, std::size_t leg,
                                            const ToolPart& part) {
-  const LegSpan span = step.span_of(leg);
-  with_part_leg(step, span, part, [&](const PartLeg& on_leg) {
-    LegSearch search(*this, step, span, part, on_leg);
-    for (const std::uint32_t face : listed_) {
-      if (const auto closest = search.measure(face)) search.add(face, *closest);
-    }
-  });
+  LegSearch search(*this, step, step.span_of(leg), part);
+  for (const std::uint32_t face : listed_) {
+    if (const auto closest = search.measure(face)) search.add(face, *closest);
+  }
 }
 
 }  // namespace organ_collision

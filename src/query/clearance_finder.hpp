@@ -8,7 +8,6 @@
 #include "geometry/distance/face_search.hpp"
 #include "nearest_faces.hpp"
 #include "organ_collision/query/collision_query.hpp"
-#include "step.hpp"
 
 namespace organ_collision {
 

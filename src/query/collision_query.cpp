@@ -5,10 +5,9 @@
 
 #include "clearance_finder.hpp"
 #include "contact_finder.hpp"
-#include "picking/volumes/conservative_volume.hpp"
+#include "moving_part.hpp"
 #include "placement_finder.hpp"
 #include "request_check.hpp"
-#include "step.hpp"
 
 namespace organ_collision {
 namespace {
@@ -27,17 +26,13 @@ void clear(CollisionResult& result) {
   result.placement = {{}, {}, std::move(result.placement.crossings), false, 0.0};
 }
 
-/// The volumes that the shaft, or the parts of a link, sweep on a leg. `number` is
+/// The volumes that the parts of a link, or the shaft, sweep on a leg. `link` is
 /// FaceContact::link.
-std::vector<ViewingVolume> volumes_of(const Step& step, std::size_t leg, std::int32_t number) {
-  const LegSpan span = step.span_of(leg);
-  if (number == kShaft) return {tool_volume(step.shaft_motion(span), step.radius())};
-  const auto link = static_cast<std::size_t>(number);
-  const RigidMotion motion = step.link_motion(span, link);
+std::vector<ViewingVolume> volumes_of(const Step& leg, std::int32_t link) {
   std::vector<ViewingVolume> volumes;
-  for (const LinkPart& part : step.link(link).parts) {
-    volumes.push_back(tool_volume(SweptBox(part.bounds, motion, part.radius)));
-  }
+  for_each_part(leg, [&](const ToolPart& part, const LegSpan& span) {
+    if (part.link == link) volumes.push_back(PartOnLeg(leg, span, part)->sweep(0.0).tool_volume());
+  });
   return volumes;
 }
 
@@ -54,7 +49,7 @@ void find_regions(const Step& step, const std::vector<FaceContact>& contacts,
     if (volumes.empty() || its_leg != leg || contact.link != link) {
       leg = its_leg;
       link = contact.link;
-      volumes = volumes_of(step, leg, link);
+      volumes = volumes_of(step.on_leg(leg), link);
     }
     const Triangle face = step.organ().triangle(contact.face);
     Region& region = regions.emplace_back();

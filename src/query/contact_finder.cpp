@@ -10,14 +10,6 @@
 namespace organ_collision {
 namespace {
 
-/// The space that a part sweeps along the chord of a span. It is grown by the deviation of the
-/// span, so that it contains the part on all legs.
-PartSweep sweep_of(const Step& step, const LegSpan& span, const ToolPart& part) {
-  if (!part.shape) return {step.shaft_motion(span), step.radius() + span.deviation};
-  return PartSweep(SweptBox(part.shape->bounds, step.link_motion(span, part.link),
-                            part.shape->radius + span.deviation));
-}
-
 /// Sorts the contacts by face, then link, and keeps one contact for each face and link: the first
 /// touch, and of several touches at that time the deepest one. Parts of a link that pierce a face
 /// have the same depth. The coordinates of the point then decide, so that the answer does not
@@ -46,8 +38,9 @@ void ContactFinder::find_part_contacts(const Step& step, const LegSpan& span, co
   // Section 4 of the paper, figures 7 and 8: the space that the part sweeps. The picker builds a
   // viewing volume around it, as large as the drawn faces require (doc/theory/geometry.md,
   // Conservative wedge). The paper's volume misses parts of the space; the picker's volume contains
-  // all of it.
-  const PartSweep swept = sweep_of(step, span, part);
+  // all of it, on each leg of the span.
+  const PartOnLeg moving(step, span, part);
+  const PartSweep swept = moving->sweep(span.deviation);
 
   // Section 2 of the paper: OpenGL draws the organ in a picking mode. The candidates are the faces
   // that survive clipping to the volume. Faces that need no drawing, for example because a corner
@@ -56,7 +49,7 @@ void ContactFinder::find_part_contacts(const Step& step, const LegSpan& span, co
 
   // Not in the paper: exact distances decide which candidates the part touches, and when and where
   // it first touches each of them.
-  confirm(step, span, part, contacts);
+  confirm(step, span, part, *moving, contacts);
 }
 
 void ContactFinder::find(const Step& step, std::vector<FaceContact>& contacts) {
@@ -68,7 +61,6 @@ void ContactFinder::find(const Step& step, std::vector<FaceContact>& contacts) {
     find_part_contacts(step, span, part, contacts);
   });
   keep_first_touches(contacts);
-  for (FaceContact& contact : contacts) contact.vertices = step.organ().faces()[contact.face];
   set_touching(step, contacts);
 }
 
@@ -86,21 +78,25 @@ void ContactFinder::find_in_paper_volume(const CollisionRequest& request, Collis
 }
 
 /// Confirms the candidates leg by leg. For each face and link, only the first leg counts on which a
-/// part of the link touches the face.
+/// part of the link touches the face. `on_chord`: the part along the chord of the span.
 void ContactFinder::confirm(const Step& step, const LegSpan& span, const ToolPart& part,
-                            std::vector<FaceContact>& contacts) {
-  if (part.number() != link_) forget_touched_faces();
-  link_ = part.number();
+                            const MovingPart& on_chord, std::vector<FaceContact>& contacts) {
+  if (part.link != link_) forget_touched_faces();
+  link_ = part.link;
   // The budget grows with the number of all faces, so that it does not depend on the picker.
-  budget_.add_pairs(span.leg_count() * step.organ().face_count() * part.convex_count());
+  budget_.add_pairs(span.leg_count() * step.organ().face_count() * on_chord.convex_count());
   pending_faces_.clear();
   for (const Candidate& candidate : candidates_) {
     if (is_pending(candidate.face, span.begin)) {
       pending_faces_.push_back({candidate.face, span.begin});
     }
   }
+  if (span.leg_count() == 1) return confirm_on_leg(step, span.begin, on_chord, contacts);
   for (std::size_t leg = span.begin; leg < span.end && !pending_faces_.empty(); ++leg) {
-    confirm_on_leg(step, leg, part, contacts);
+    const auto is_due = [leg](const PendingFace& pending) { return pending.leg <= leg; };
+    if (std::any_of(pending_faces_.begin(), pending_faces_.end(), is_due)) {
+      confirm_on_leg(step, leg, *PartOnLeg(step, step.span_of(leg), part), contacts);
+    }
     const auto is_decided = [&](const PendingFace& pending) {
       return !is_pending(pending.face, leg + 1);
     };
@@ -108,7 +104,7 @@ void ContactFinder::confirm(const Step& step, const LegSpan& span, const ToolPar
                          pending_faces_.end());
     // Most faces of a lasting contact touch on the first leg already. Only the other faces are
     // tested against the chord, because this test takes time.
-    if (leg == span.begin && span.leg_count() > 1) keep_faces_near_chord(step, span, part);
+    if (leg == span.begin) keep_faces_near_chord(step, span, on_chord);
   }
 }
 
@@ -116,53 +112,43 @@ void ContactFinder::confirm(const Step& step, const LegSpan& span, const ToolPar
 /// span. For each of the other faces, finds the first leg on which it may be touched. See
 /// doc/theory/geometry.md, Spans of legs.
 void ContactFinder::keep_faces_near_chord(const Step& step, const LegSpan& span,
-                                          const ToolPart& part) {
+                                          const MovingPart& on_chord) {
   const OrganMotion organ = step.organ_motion(span);
   touches_.clear();
   for (const PendingFace& pending : pending_faces_) {
     touches_.push_back({pending.face, organ.face(step.organ().faces()[pending.face]), {}});
   }
-  with_part_leg(step, span, part, [&](const PartLeg& on_chord) {
-    find_touches(on_chord, part.shape, on_chord.radius + span.deviation + tolerance::kTouch);
-  });
+  find_touches(on_chord, on_chord.radius() + span.deviation + tolerance::kTouch);
   pending_faces_.clear();
   for (const FaceTouch& touch : touches_) {
     if (!touch.first) continue;
-    const ClosestPoints& closest = touch.first->closest;
-    const bool is_direction = !part.is_surface() && closest.distance > tolerance::kPierced;
-    pending_faces_.push_back(
-        {touch.face, step.leg_at(span, touch.first->time),
-         is_direction ? closest.separation.normalized() : Eigen::Vector3d::Zero()});
+    pending_faces_.push_back({touch.face, step.leg_at(span, touch.first->time),
+                              on_chord.separating_normal(touch.first->closest)});
   }
 }
 
 /// Decides by exact distances which pending faces the part touches on a leg.
-void ContactFinder::confirm_on_leg(const Step& step, std::size_t leg, const ToolPart& part,
+void ContactFinder::confirm_on_leg(const Step& step, std::size_t leg, const MovingPart& on_leg,
                                    std::vector<FaceContact>& contacts) {
-  const auto is_due = [leg](const PendingFace& pending) { return pending.leg <= leg; };
-  if (std::none_of(pending_faces_.begin(), pending_faces_.end(), is_due)) return;
   const OrganMotion organ = step.organ_motion(step.span_of(leg));
-  with_part_leg(step, step.span_of(leg), part, [&](const PartLeg& on_leg) {
-    touches_.clear();
-    for (const PendingFace& pending : pending_faces_) {
-      if (!is_due(pending)) continue;
-      const FaceMotion face = organ.face(step.organ().faces()[pending.face]);
-      // If the tool only trembles, the plane across `normal` separates part and face on most legs.
-      const double beyond = on_leg.radius + tolerance::kTouch;
-      if (!pending.normal.isZero(0.0) && stays_beyond(pending.normal, on_leg.core, face, beyond)) {
-        continue;
-      }
-      touches_.push_back({pending.face, face, {}});
+  touches_.clear();
+  for (const PendingFace& pending : pending_faces_) {
+    if (pending.leg > leg) continue;
+    const FaceMotion face = organ.face(step.organ().faces()[pending.face]);
+    // If the tool only trembles, the plane across `normal` separates part and face on most legs.
+    const double beyond = on_leg.radius() + tolerance::kTouch;
+    if (!pending.normal.isZero(0.0) && stays_beyond(pending.normal, on_leg.core(), face, beyond)) {
+      continue;
     }
-    find_touches(on_leg, part.shape, on_leg.radius);
-    for (const FaceTouch& touch : touches_) {
-      if (!touch.first) continue;
-      contacts.push_back(contact_of(*touch.first, on_leg, step.face_leg(leg, touch.face)));
-      contacts.back().face = touch.face;
-      touched_faces_.push_back(touch.face);
-      touched_leg_[touch.face] = static_cast<std::uint32_t>(leg + 1);
-    }
-  });
+    touches_.push_back({pending.face, face, {}});
+  }
+  find_touches(on_leg, on_leg.radius());
+  for (const FaceTouch& touch : touches_) {
+    if (!touch.first) continue;
+    contacts.push_back(contact_on(step, leg, on_leg, touch.face, *touch.first));
+    touched_faces_.push_back(touch.face);
+    touched_leg_[touch.face] = static_cast<std::uint32_t>(leg + 1);
+  }
 }
 
 /// Decides by exact distances which contacts still touch when the step ends.
@@ -174,16 +160,17 @@ void ContactFinder::set_touching(const Step& step, std::vector<FaceContact>& con
   const Step end = step.at_end();
   for_each_part(end, [&](const ToolPart& part, const LegSpan& span) {
     const auto is_open = [&](const FaceContact& contact) {
-      return contact.link == part.number() && !contact.touching;
+      return contact.link == part.link && !contact.touching;
     };
     const OrganMotion organ = end.organ_motion(span);
     touches_.clear();
     for (const FaceContact& contact : contacts) {
       if (is_open(contact)) touches_.push_back({contact.face, organ.face(contact.vertices), {}});
     }
-    budget_.add_pairs(touches_.size() * part.convex_count());
-    with_part_leg(end, span, part,
-                  [&](const PartLeg& leg) { find_touches(leg, part.shape, leg.radius); });
+    if (touches_.empty()) return;
+    const PartOnLeg moving(end, span, part);
+    budget_.add_pairs(touches_.size() * moving->convex_count());
+    find_touches(*moving, moving->radius());
     auto touch = touches_.begin();
     for (FaceContact& contact : contacts) {
       if (is_open(contact)) contact.touching = (touch++)->first.has_value();
@@ -192,15 +179,8 @@ void ContactFinder::set_touching(const Step& step, std::vector<FaceContact>& con
 }
 
 /// Finds for each face in `touches_` when it first comes within `radius` [m] of the part.
-void ContactFinder::find_touches(const PartLeg& part, const LinkPart* shape, double radius) {
-  if (touches_.empty()) return;
-  if (shape && shape->surface) {
-    surface_touches_.find(*shape->surface, *part.core.link(), radius, budget_, touches_);
-  } else {
-    for (FaceTouch& touch : touches_) {
-      touch.first = first_touch(part.core, touch.motion, radius, budget_);
-    }
-  }
+void ContactFinder::find_touches(const MovingPart& part, double radius) {
+  if (!touches_.empty()) part.find_touches(radius, budget_, surface_touches_, touches_);
 }
 
 /// Whether the present link may touch the face on the leg `leg` earlier than known. If one part of

@@ -4,10 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "geometry/distance/surface_touch.hpp"
+#include "moving_part.hpp"
 #include "organ_collision/query/collision_query.hpp"
 #include "picking/pickers/picker.hpp"
-#include "step.hpp"
 
 namespace organ_collision {
 
@@ -40,12 +39,12 @@ class ContactFinder {
   void find_part_contacts(const Step& step, const LegSpan& span, const ToolPart& part,
                           std::vector<FaceContact>& contacts);
   void confirm(const Step& step, const LegSpan& span, const ToolPart& part,
-               std::vector<FaceContact>& contacts);
-  void keep_faces_near_chord(const Step& step, const LegSpan& span, const ToolPart& part);
-  void confirm_on_leg(const Step& step, std::size_t leg, const ToolPart& part,
+               const MovingPart& on_chord, std::vector<FaceContact>& contacts);
+  void keep_faces_near_chord(const Step& step, const LegSpan& span, const MovingPart& on_chord);
+  void confirm_on_leg(const Step& step, std::size_t leg, const MovingPart& on_leg,
                       std::vector<FaceContact>& contacts);
   void set_touching(const Step& step, std::vector<FaceContact>& contacts);
-  void find_touches(const PartLeg& part, const LinkPart* shape, double radius);
+  void find_touches(const MovingPart& part, double radius);
   bool is_pending(std::uint32_t face, std::size_t leg) const;
   void forget_touched_faces();
 

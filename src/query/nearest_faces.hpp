@@ -4,8 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "geometry/distance/closest_approach.hpp"
-#include "step.hpp"
+#include "moving_part.hpp"
 
 namespace organ_collision {
 

@@ -224,12 +224,6 @@ OrganMotion Step::organ_motion(const LegSpan& span) const {
   return {*organ_before_, *boxes_before_, organ_, begin(span), finish(span)};
 }
 
-FaceLeg Step::face_leg(std::size_t leg, std::uint32_t face) const {
-  const FaceIndices& corners = organ_.faces()[face];
-  return {organ_motion(span_of(leg)).face(corners), begin(span_of(leg)), finish(span_of(leg)),
-          organ_.triangle(corners)};
-}
-
 Eigen::Vector3d velocity_between(const TriangleMesh& from, const TriangleMesh& to, double seconds,
                                  std::uint32_t face, const Eigen::Vector3d& barycentric) {
   return (point_at(to.triangle(face), barycentric) - point_at(from.triangle(face), barycentric)) /

@@ -1,10 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
-#include "contact_refiner.hpp"
 #include "geometry/organ/organ_motion.hpp"
+#include "geometry/tool/leg_motion.hpp"
 #include "organ_collision/geometry/tool/link.hpp"
 #include "organ_collision/geometry/tool/tool_path.hpp"
 #include "organ_collision/query/collision_query.hpp"
@@ -58,9 +59,15 @@ class Step {
   /// clusters.
   Step(const CollisionRequest& request, const ToolPath& path, BlockBoxes& boxes);
 
-  /// A step without motion at the end of this step, or at its start.
-  Step at_end() const { return {organ_, *this, last()}; }
-  Step at_start() const { return {organ_before_ ? *organ_before_ : organ_, *this, waypoints_[0]}; }
+  // Steps in which the organ rests. The first two have no motion either.
+  Step at_end() const { return {organ_, *this, last(), 1}; }
+  Step at_start() const {
+    return {organ_before_ ? *organ_before_ : organ_, *this, waypoints_[0], 1};
+  }
+  /// The tool's motion on one leg.
+  Step on_leg(std::size_t leg) const {
+    return {organ_, *this, waypoints_[leg], std::min<std::size_t>(waypoint_count_, 2)};
+  }
 
   /// Whether neither the tool nor the organ moves.
   bool is_at_rest() const { return waypoint_count_ == 1 && !organ_before_; }
@@ -98,24 +105,21 @@ class Step {
   }
   /// The motion of the organ during a span.
   OrganMotion organ_motion(const LegSpan& span) const;
-  FaceLeg face_leg(std::size_t leg, std::uint32_t face) const;
   /// The leg of a span at the time `time` of the chord, in [0, 1]. At a waypoint, it is the leg
   /// that ends there.
   std::size_t leg_at(const LegSpan& span, double time) const;
-  /// Where the shaft or a link is at the end of the step.
-  PartEnd shaft_end() const { return {last().axis}; }
-  PartEnd link_end(std::size_t link) const { return {{}, &(*links_)[link], last().links[link]}; }
+  /// The pose of the tool at the end of the step.
+  const ToolWaypoint& last() const { return waypoints_[waypoint_count_ - 1]; }
 
  private:
-  Step(const TriangleMesh& organ, const Step& step, const ToolWaypoint& waypoint)
+  Step(const TriangleMesh& organ, const Step& step, const ToolWaypoint& first, std::size_t count)
       : organ_(organ),
         organ_before_(nullptr),
         radius_(step.radius_),
         links_(step.links_),
-        waypoints_(&waypoint),
-        waypoint_count_(1) {}
+        waypoints_(&first),
+        waypoint_count_(count) {}
 
-  const ToolWaypoint& last() const { return waypoints_[waypoint_count_ - 1]; }
   const ToolWaypoint& from(const LegSpan& span) const { return waypoints_[span.begin]; }
   const ToolWaypoint& to(const LegSpan& span) const {
     return waypoints_[waypoint_count_ > 1 ? span.end : 0];
@@ -135,55 +139,8 @@ class Step {
   const BlockBoxes* boxes_before_ = nullptr;
 };
 
-/// The shaft of a tool, or a part of one of its links.
-struct ToolPart {
-  const LinkPart* shape = nullptr;  ///< the part of a link; null: the shaft
-  std::size_t link = 0;
-
-  bool is_surface() const { return shape && shape->surface; }
-  /// The number of the link, or kShaft.
-  std::int32_t number() const { return shape ? static_cast<std::int32_t>(link) : kShaft; }
-  /// [m] The radius of a shaft or a ball; 0 for other shapes. See ToolClearance.
-  double surface_radius(const Step& step) const {
-    return shape ? shape->ball_radius() : step.radius();
-  }
-  /// The number of convex parts: a surface has one for each of its triangles.
-  std::size_t convex_count() const {
-    return shape && shape->surface ? shape->surface->faces().size() : 1;
-  }
-};
-
 /// The velocity [m/s] of the tissue at a point of a face, as CollisionRequest::velocity_from says.
 Eigen::Vector3d tissue_velocity(const CollisionRequest& request, std::uint32_t face,
                                 const Eigen::Vector3d& barycentric);
-
-/// Calls use(part_leg), where part_leg is the part as it moves along the chord of a span. part_leg
-/// refers to a motion that lives only during the call.
-template <typename Use>
-void with_part_leg(const Step& step, const LegSpan& span, const ToolPart& part, Use use) {
-  if (!part.shape) return use(PartLeg{step.shaft_motion(span), step.radius(), step.shaft_end()});
-  const RigidMotion motion = step.link_motion(span, part.link);
-  use(PartLeg{
-      {part.shape->core, motion}, part.shape->radius, step.link_end(part.link), part.number()});
-}
-
-/// Calls use(part, span) for each part of a tool and each of its spans of legs. The order is: link
-/// by link, then span by span, then part by part.
-template <typename Use>
-void for_each_part(const Step& step, Use use) {
-  for (std::size_t leg = 0; step.has_shaft() && leg < step.leg_count();) {
-    const LegSpan span = step.shaft_span(leg);
-    use(ToolPart{}, span);
-    leg = span.end;
-  }
-  for (std::size_t link = 0; link < step.link_count(); ++link) {
-    const LinkBall ball = ball_around(step.link(link));
-    for (std::size_t leg = 0; leg < step.leg_count();) {
-      const LegSpan span = step.link_span(leg, link, ball);
-      for (const LinkPart& part : step.link(link).parts) use(ToolPart{&part, link}, span);
-      leg = span.end;
-    }
-  }
-}
 
 }  // namespace organ_collision

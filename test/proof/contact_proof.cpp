@@ -83,7 +83,7 @@ class Comparison {
     }
     if (!touching && !found) return tally;
     const double largest = extent(trial.face, motion.start.trocar);
-    const ViewingVolume volume = conservative_volume(motion, trial.radius, {0.0, largest});
+    const ViewingVolume volume = PartSweep(motion, trial.radius).volume({0.0, largest});
     const TriangleMesh mesh = mesh_of({trial.face});
     for (const std::unique_ptr<Picker>& picker : pickers_) {
       if (picks(*picker, volume, mesh)) continue;
@@ -156,7 +156,7 @@ void compare_volumes(const Trial& trial, Comparison& comparison, Tallies& tallie
   const auto compare = [&](const char* name, const ViewingVolume& volume) {
     tallies[name].add(comparison.volume(volume, trial));
   };
-  compare("the tool's", tool_volume(motion, trial.radius));
+  compare("the tool's", PartSweep(motion, trial.radius).tool_volume());
   if (motion.end.tip == motion.end.trocar) return;
   compare("paper's static", paper_static_volume(motion.end, trial.radius));
   if (motion.start.tip == motion.start.trocar) return;

@@ -158,14 +158,11 @@ TEST_P(CollisionQueryWith, RegionsAreInTheFaceAndInTheVolumeOfTheLegThatTouched)
       const FaceContact& contact = result_.contacts[k];
       filled += result_.regions[k].size() >= 3;
       std::vector<ViewingVolume> volumes;
-      for_each_pair(scene.request, [&](std::uint32_t face, const LinkPart* shape,
-                                       const PartLeg& part, const FaceLeg& leg) {
-        if (face != contact.face || part.link != contact.link) return;
+      for_each_pair(scene.request, [&](std::uint32_t face, const LinkPart* /*shape*/,
+                                       const MovingPart& part, const FaceLeg& leg) {
+        if (face != contact.face || part.link() != contact.link) return;
         if (contact.fraction < leg.begin || contact.fraction > leg.finish) return;
-        const RigidMotion* const link = part.core.link();
-        volumes.push_back(
-            shape ? tool_volume(SweptBox(shape->bounds, *link, shape->radius))
-                  : tool_volume({part.core.start().axis(), part.core.end().axis()}, part.radius));
+        volumes.push_back(part.sweep(0.0).tool_volume());
       });
       for (const Vector3d& corner : result_.regions[k]) {
         EXPECT_LE(oracle::distance({corner, corner, corner}, scene.organ.triangle(contact.face)),

@@ -1,8 +1,9 @@
-// contact_refiner.hpp: the contact of one part of a tool and one face.
+// moving_part.hpp: the contact of one part of a tool and one face.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <memory>
 #include <sstream>
 #include <string>
 #include <tuple>
@@ -46,9 +47,10 @@ struct PartTrial {
     if (number < shafts) {
       const oracle::Trial trial = oracle::make_trial(number, random);
       const ShaftMotion& leg = trial.motion;
-      part.emplace(PartLeg{ShaftMotion{moves == Moves::kNothing ? leg.end : leg.start, leg.end},
-                           trial.radius,
-                           {{leg.end.trocar, leg.end.tip + shift}}});
+      end_axis = {leg.end.trocar, leg.end.tip + shift};
+      part = std::make_unique<MovingShaft>(
+          ShaftMotion{moves == Moves::kNothing ? leg.end : leg.start, leg.end}, trial.radius,
+          end_axis);
       at_leg_end = trial.face;
       text << oracle::to_line(trial);
     } else {
@@ -59,10 +61,10 @@ struct PartTrial {
       link.parts[0].core = trial.core;
       link.parts[0].radius = trial.radius;
       motion.emplace(moves == Moves::kNothing ? trial.end : trial.start, trial.end);
-      Isometry3d end = trial.end;
-      if (on) end.linear() *= oracle::random_turn(random.uniform(0.0, 1.0), random);
-      end.pretranslate(shift);
-      part.emplace(PartLeg{{trial.core, *motion}, trial.radius, {kNoShaft, &link, end}, kNumber});
+      end_pose = trial.end;
+      if (on) end_pose.linear() *= oracle::random_turn(random.uniform(0.0, 1.0), random);
+      end_pose.pretranslate(shift);
+      part = std::make_unique<MovingLinkPart>(link.parts[0], link, kNumber, *motion, end_pose);
       at_leg_end = trial.face;
       text << trial;
     }
@@ -85,18 +87,20 @@ struct PartTrial {
     return (contact.fraction - face.begin) / (face.finish - face.begin);
   }
   ConvexCore end_core() const {
-    return is_shaft() ? ConvexCore(part->end.axis) : part->end.pose * link.parts[0].core;
+    return is_shaft() ? ConvexCore(end_axis) : end_pose * link.parts[0].core;
   }
   /// Where the point of the core that touched is at the end of the step.
   Vector3d touching_point_at_end(const FaceContact& contact, double distance) const {
-    if (is_shaft()) return part->end.axis.at(contact.shaft);
+    if (is_shaft()) return end_axis.at(contact.shaft);
     const Vector3d at_touch = contact.point - distance * contact.normal;
-    return part->end.pose * (motion->at(time(contact)).inverse() * at_touch);
+    return end_pose * (motion->at(time(contact)).inverse() * at_touch);
   }
 
   Link link;
   std::optional<RigidMotion> motion;  ///< of the link
-  std::optional<PartLeg> part;
+  std::unique_ptr<MovingPart> part;
+  ShaftAxis end_axis = kNoShaft;                 ///< at the end of the step
+  Isometry3d end_pose = Isometry3d::Identity();  ///< of the link, at the end of the step
   FaceLeg face;
   double rounding = 0.0;  ///< [m] of the coordinates
   double slack = 0.0;     ///< [m] the error of exact distances
@@ -119,9 +123,9 @@ class ContactTrials : public testing::TestWithParam<std::size_t> {
 TEST_P(ContactTrials, AtRestMovingTheToolByDepthParts) {
   int contacts = 0;
   for_each_trial(Moves::kNothing, 150, [&](const PartTrial& trial) {
-    const ConvexCore core = trial.part->core.end();
+    const ConvexCore core = trial.part->core().end();
     const Triangle& face = trial.face.end;
-    const double radius = trial.part->radius, distance = oracle::distance(core, face);
+    const double radius = trial.part->radius(), distance = oracle::distance(core, face);
     const auto contact = trial.contact();
     if (std::abs(distance - radius) > trial.slack) {
       EXPECT_EQ(contact.has_value(), distance < radius);
@@ -130,7 +134,7 @@ TEST_P(ContactTrials, AtRestMovingTheToolByDepthParts) {
     ++contacts;
     const Vector3d& normal = contact->normal;
     EXPECT_EQ(contact->fraction, 0.0);
-    EXPECT_EQ(contact->link, trial.part->link);
+    EXPECT_EQ(contact->link, trial.part->link());
     EXPECT_NEAR(normal.norm(), 1.0, 1e-14);
     Isometry3d parted = Isometry3d::Identity();
     parted.translation() = -contact->depth * normal;
@@ -167,9 +171,9 @@ TEST_P(ContactTrials, OnALegTheyAreAtTheRadiusAndTellOfTheEndOfTheStep) {
     const auto contact = trial.contact();
     if (!contact) return;
     ++contacts;
-    const double time = trial.time(*contact), radius = trial.part->radius;
+    const double time = trial.time(*contact), radius = trial.part->radius();
     const Triangle face = trial.face.motion.at(time);
-    const double distance = oracle::distance(trial.part->core.at(time), face);
+    const double distance = oracle::distance(trial.part->core().at(time), face);
     if (time > 0.0) {
       EXPECT_NEAR(distance, radius, trial.is_shaft() ? 1e-9 : 1e-8);
     }
@@ -179,7 +183,7 @@ TEST_P(ContactTrials, OnALegTheyAreAtTheRadiusAndTellOfTheEndOfTheStep) {
     EXPECT_LE((on_organ - point_at(trial.face.end, contact->barycentric)).norm(), trial.slack);
     const Vector3d& normal = contact->normal;
     if (distance < 0.5 * tolerance::kPierced) {
-      const double reach = trial.is_shaft() ? normal.dot(trial.part->end.axis.tip)
+      const double reach = trial.is_shaft() ? normal.dot(trial.end_axis.tip)
                                             : trial.end_core().support_value(normal);
       EXPECT_NEAR(contact->depth, reach + radius - normal.dot(on_organ), trial.slack);
     } else if (trial.is_shaft() ? distance > 2.0 * tolerance::kPierced : distance > 1e-5) {
@@ -225,8 +229,7 @@ FaceContact at_rest(const Link& link, const Triangle& face) {
   const RigidMotion motion(kOrigin, kOrigin);
   const LinkPart& part = link.parts[0];
   const auto contact =
-      refine({{part.core, motion}, part.radius, {kNoShaft, &link, kOrigin}, kNumber},
-             {{face, face}, 0, 1, face});
+      refine(MovingLinkPart(part, link, kNumber, motion, kOrigin), {{face, face}, 0, 1, face});
   EXPECT_TRUE(contact);
   return contact.value_or(FaceContact());
 }

@@ -17,7 +17,7 @@
 #include "geometry/distance/closest_approach.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 #include "organ_collision/query/collision_query.hpp"
-#include "query/contact_refiner.hpp"
+#include "query/moving_part.hpp"
 #include "test/closed_surfaces.hpp"
 #include "test/geometry/tool/tool_meshes.hpp"
 
@@ -206,13 +206,20 @@ struct LinkScene {
   CollisionRequest request;
 };
 
+/// A face on one leg of a step, and where it is at the end of the whole step.
+struct FaceLeg {
+  FaceMotion motion;
+  double begin, finish;  ///< fractions of the step at which the leg begins and ends
+  Triangle end;          ///< the face at the end of the step
+};
+
 /// Calls use(face, shape, part, face_leg) for each face, each part of the tool and each leg.
 /// `shape` is null for the shaft.
 template <typename Use>
 void for_each_pair(const CollisionRequest& request, const Use& use) {
   const bool is_static = request.mode == QueryMode::kStatic;
   const ToolPath path = is_static ? ToolPath{request.path.back()} : request.path;
-  const auto on_faces = [&](const LinkPart* shape, const PartLeg& part, double begin,
+  const auto on_faces = [&](const LinkPart* shape, const MovingPart& part, double begin,
                             double finish) {
     for (std::uint32_t face = 0; face < request.organ->face_count(); ++face) {
       const Triangle after = request.organ->triangle(face);
@@ -229,38 +236,43 @@ void for_each_pair(const CollisionRequest& request, const Use& use) {
     const bool has_shaft = request.radius > 0.0;
     if (has_shaft) {
       const ShaftMotion shaft{from.axis, to.axis};
-      on_faces(nullptr, {shaft, request.radius, {last.axis}}, begin, finish);
+      on_faces(nullptr, MovingShaft(shaft, request.radius, last.axis), begin, finish);
     }
     for (std::size_t i = 0; request.links && i < request.links->size(); ++i) {
       const Link& link = (*request.links)[i];
       const RigidMotion motion(from.links[i], to.links[i]);
       for (const LinkPart& part : link.parts) {
         const auto number = static_cast<std::int32_t>(i);
-        const PartEnd end{kNoShaft, &link, last.links[i]};
-        on_faces(&part, {{part.core, motion}, part.radius, end, number}, begin, finish);
+        const MovingLinkPart moving(part, link, number, motion, last.links[i]);
+        on_faces(&part, moving, begin, finish);
       }
     }
   }
 }
 
 /// The contact of one part and one face by exact distances, without a work limit.
-inline std::optional<FaceContact> refine(const PartLeg& part, const FaceLeg& face) {
-  const std::optional<FirstTouch> touch = first_touch(part.core, face.motion, part.radius);
+inline std::optional<FaceContact> contact_of(const std::optional<FirstTouch>& touch,
+                                             const MovingPart& part, const FaceLeg& face) {
   if (!touch) return std::nullopt;
-  return contact_of(*touch, part, face);
+  FaceContact contact = part.contact(*touch, face.motion, face.end);
+  contact.fraction = face.begin + touch->time * (face.finish - face.begin);
+  return contact;
+}
+inline std::optional<FaceContact> refine(const MovingPart& part, const FaceLeg& face) {
+  return contact_of(first_touch(part.core(), face.motion, part.radius()), part, face);
 }
 
 /// The contact of a face with the triangle of a part's surface that touches it first.
-inline std::optional<FaceContact> refine_surface(const PartLeg& part, const ToolSurface& surface,
+inline std::optional<FaceContact> refine_surface(const MovingPart& part, const ToolSurface& surface,
                                                  const FaceLeg& face) {
   std::optional<FirstTouch> first;
   for (std::size_t i = 0; i < surface.faces().size(); ++i) {
     const ConvexCore core(surface.triangle(i));
-    const auto touch = first_touch(CoreMotion(core, *part.core.link()), face.motion, part.radius);
+    const auto touch =
+        first_touch(CoreMotion(core, *part.core().link()), face.motion, part.radius());
     if (touch && (!first || touch->time < first->time)) first = touch;
   }
-  if (!first) return std::nullopt;
-  return contact_of(*first, part, face);
+  return contact_of(first, part, face);
 }
 
 /// The contacts by brute force, sorted by face, then link. The earlier contact is kept, then the
@@ -270,13 +282,13 @@ inline std::vector<FaceContact> contacts_by_brute_force(CollisionRequest request
     return std::make_tuple(c.fraction, -c.depth, c.point.x(), c.point.y(), c.point.z());
   };
   std::map<std::pair<std::uint32_t, std::int32_t>, FaceContact> best;
-  for_each_pair(request, [&](std::uint32_t face, const LinkPart* shape, const PartLeg& part,
+  for_each_pair(request, [&](std::uint32_t face, const LinkPart* shape, const MovingPart& part,
                              const FaceLeg& leg) {
     auto contact =
         shape && shape->surface ? refine_surface(part, *shape->surface, leg) : refine(part, leg);
     if (!contact) return;
     contact->face = face;
-    const auto [known, is_new] = best.emplace(std::make_pair(face, part.link), *contact);
+    const auto [known, is_new] = best.emplace(std::make_pair(face, part.link()), *contact);
     if (!is_new && order(*contact) < order(known->second)) known->second = *contact;
   });
   const bool is_static = request.mode == QueryMode::kStatic;
@@ -298,17 +310,17 @@ constexpr double kMoving = 2.0 * tolerance::kApproach;
 inline std::vector<double> distances_by_brute_force(const CollisionRequest& request) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   std::vector<double> least(request.organ->face_count(), kInfinity);
-  for_each_pair(request, [&](std::uint32_t face, const LinkPart* shape, const PartLeg& part,
+  for_each_pair(request, [&](std::uint32_t face, const LinkPart* shape, const MovingPart& part,
                              const FaceLeg& leg) {
-    const double radius = shape ? shape->ball_radius() : part.radius;
+    const double radius = shape ? shape->ball_radius() : part.radius();
     const auto measure = [&](const CoreMotion& core) {
       WorkBudget unlimited = WorkBudget::unlimited();
       const auto found = closest_approach(core, leg.motion, kInfinity, unlimited);
       least[face] = std::min(least[face], found->closest.distance - radius);
     };
-    if (!shape || !shape->surface) return measure(part.core);
+    if (!shape || !shape->surface) return measure(part.core());
     for (std::size_t i = 0; i < shape->surface->faces().size(); ++i) {
-      measure(CoreMotion(ConvexCore(shape->surface->triangle(i)), *part.core.link()));
+      measure(CoreMotion(ConvexCore(shape->surface->triangle(i)), *part.core().link()));
     }
   });
   return least;

@@ -62,14 +62,14 @@ class WorkLimit : public testing::Test {
 };
 
 /// Expects every face that touches, found without a limit to the work, among the contacts.
-void expect_none_missed(const PartLeg& part, const CollisionRequest& request,
+void expect_none_missed(const MovingPart& part, const CollisionRequest& request,
                         const CollisionResult& result) {
   auto contact = result.contacts.begin();
   std::size_t resolved = 0;
   for (std::uint32_t face = 0; face < request.organ->face_count(); face += 7) {
     const Triangle end = request.organ->triangle(face);
     const auto touch =
-        first_touch(part.core, {request.organ_before->triangle(face), end}, part.radius);
+        first_touch(part.core(), {request.organ_before->triangle(face), end}, part.radius());
     contact = std::lower_bound(contact, result.contacts.end(), face,
                                [](const FaceContact& c, std::uint32_t f) { return c.face < f; });
     const bool is_found = contact != result.contacts.end() && contact->face == face;
@@ -108,8 +108,7 @@ TEST_F(WorkLimit, OfLinksReportsWhatIsNotResolved) {
     contacts();
     expect_counted(result_);
     const RigidMotion motion(request_.path[0].links[0], request_.path[1].links[0]);
-    expect_none_missed({{part.core, motion}, part.radius, {{}, &links[0], motion.end()}}, request_,
-                       result_);
+    expect_none_missed(MovingLinkPart(part, links[0], 0, motion, motion.end()), request_, result_);
   }
 }
 

@@ -4,11 +4,16 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <vector>
 
 namespace organ_collision {
 
 /// The corners of a triangle, in order [m]. Its outward side is given by the right-hand rule.
 using Triangle = std::array<Eigen::Vector3d, 3>;
+
+/// A convex polygon: its corners in their order along its border [m]. One corner is a point, two
+/// are a segment, and none is the empty polygon.
+using Region = std::vector<Eigen::Vector3d>;
 
 /// [m] The point with the given barycentric coordinates: one for each corner, with the sum 1.
 inline Eigen::Vector3d point_at(const Triangle& triangle, const Eigen::Vector3d& barycentric) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,16 +11,32 @@
 #include "organ_collision/geometry/organ/triangle_mesh.hpp"
 #include "organ_collision/geometry/tool/link.hpp"
 #include "organ_collision/geometry/tool/tool_path.hpp"
-#include "organ_collision/picking/gl_error.hpp"
 #include "organ_collision/picking/picker_settings.hpp"
-#include "organ_collision/picking/region.hpp"
 #include "organ_collision/query/clearance.hpp"
 #include "organ_collision/query/contact.hpp"
 #include "organ_collision/query/placement.hpp"
-#include "organ_collision/query/query_mode.hpp"
 
 /// The libraries without ROS. Start at CollisionQuery.
 namespace organ_collision {
+
+/// What is asked about one step of a tool. The values are those of msg/ContactArray.msg.
+enum class QueryMode : std::uint8_t {
+  kStatic = 0,       ///< what the tool touches at the end of its path
+  kSwept = 1,        ///< what the tool touches anywhere on its path
+  kPaperStatic = 2,  ///< the faces in the static volume of the 1999 paper, without exact distances
+  kPaperSwept = 3,   ///< the faces in the paper's swept volume, without exact distances
+  kPaperNaive = 4    ///< the faces in the paper's naive swept volume, without exact distances
+};
+
+/// Whether a mode looks only at the end of the path.
+constexpr bool is_static_mode(QueryMode mode) {
+  return mode == QueryMode::kStatic || mode == QueryMode::kPaperStatic;
+}
+
+/// Whether a mode returns the faces in one of the paper's volumes, without exact distances.
+constexpr bool is_paper_mode(QueryMode mode) {
+  return mode != QueryMode::kStatic && mode != QueryMode::kSwept;
+}
 
 /// One question: which faces of an organ does a tool touch, or did it touch during one step? On
 /// request also: how far is it, which faces are near, and on which side of the surface is it?

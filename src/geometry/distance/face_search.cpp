@@ -111,9 +111,9 @@ std::size_t FaceSearch::faces_left(float squared_bound) const {
 /// it joins the boxes of all blocks that hold a vertex of these faces. Empty if the cluster has no
 /// faces.
 FaceSearch::Box FaceSearch::box_around(std::uint32_t block) const {
-  constexpr float kMost = std::numeric_limits<float>::max();
   const std::vector<Box>& after = organ_->after().block_boxes().blocks();
   const std::vector<Box>& before = organ_->boxes_before().blocks();
+  constexpr float kMost = std::numeric_limits<float>::max();
   Box box{Array4f::Constant(kMost), Array4f::Constant(-kMost)};
   for (const std::uint32_t part : clusters().blocks(block)) {
     box = box.join(after[part]);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "geometry/organ/organ_motion.hpp"
-#include "organ_collision/geometry/tool/oriented_box.hpp"
+#include "organ_collision/geometry/tool/convex_core.hpp"
 
 namespace organ_collision {
 

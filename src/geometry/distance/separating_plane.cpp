@@ -63,8 +63,7 @@ FixedPlane::FixedPlane(const Vector3d& normal, const ToolSurface& surface,
                        const RigidMotion& motion)
     : normal_(normal) {
   const OrientedBox& box = surface.nodes().front().box;
-  const double arm = box.center.norm() + box.half_size.norm();
-  const double deviation = arm * motion.angle() * motion.angle() / 8.0;
+  const double deviation = motion.chord_deviation(box.center.norm() + box.half_size.norm());
   const auto support_value = [&](const Eigen::Isometry3d& pose) {
     return surface.project_onto(pose.linear().transpose() * normal).high +
            normal.dot(pose.translation());

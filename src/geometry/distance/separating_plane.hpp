@@ -8,7 +8,6 @@
 #include "closest_points.hpp"
 #include "geometry/organ/organ_motion.hpp"
 #include "geometry/tool/leg_motion.hpp"
-#include "organ_collision/geometry/projection_interval.hpp"
 #include "organ_collision/geometry/tool/tool_surface.hpp"
 #include "organ_collision/geometry/triangle.hpp"
 

@@ -26,7 +26,7 @@ class MovingTriangle {
     if (link.angle() > 0.0) {
       for (const Vector3d& corner : in_link) arm = std::max(arm, link.arm(corner));
     }
-    deviation_ = arm * link.angle() * link.angle() / 8.0;
+    deviation_ = link.chord_deviation(arm);
   }
 
   /// A time before which the face surely stays farther from the triangle than `reach` [m]; above 1

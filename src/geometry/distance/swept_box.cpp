@@ -16,7 +16,7 @@ double chord_deviation(const OrientedBox& box, const RigidMotion& motion) {
   if (motion.angle() == 0.0) return 0.0;
   double arm = motion.arm(box.center);
   for (int i = 0; i < 3; ++i) arm += box.half_size[i] * motion.arm(box.axes.col(i));
-  return arm * motion.angle() * motion.angle() / 8.0;
+  return motion.chord_deviation(arm);
 }
 
 Vector3d unit_or(const Vector3d& vector, const Vector3d& otherwise) {

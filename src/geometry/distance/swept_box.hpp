@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "organ_collision/geometry/tool/oriented_box.hpp"
+#include "organ_collision/geometry/tool/convex_core.hpp"
 #include "organ_collision/geometry/tool/shaft.hpp"
 #include "separating_plane.hpp"
 

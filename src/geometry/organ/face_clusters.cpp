@@ -8,8 +8,6 @@
 #include <numeric>
 #include <utility>
 
-#include "organ_collision/geometry/organ/block_boxes.hpp"
-
 namespace organ_collision {
 namespace {
 

@@ -1,8 +1,10 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 
-#include "organ_collision/geometry/organ/block_boxes.hpp"
+#include "organ_collision/geometry/organ/face_clusters.hpp"
 #include "organ_collision/geometry/organ/triangle_mesh.hpp"
 #include "organ_collision/geometry/triangle.hpp"
 
@@ -14,11 +16,21 @@ struct FaceMotion {
   Triangle end;
 
   /// The face at `time` in [0, 1] of the leg.
-  Triangle at(double time) const;
+  Triangle at(double time) const {
+    return {start[0] + time * (end[0] - start[0]), start[1] + time * (end[1] - start[1]),
+            start[2] + time * (end[2] - start[2])};
+  }
   /// [m] The largest distance by which a corner moves during the leg.
-  double farthest_move() const;
+  double farthest_move() const {
+    double squared = 0.0;
+    for (int i = 0; i < 3; ++i) squared = std::max(squared, (end[i] - start[i]).squaredNorm());
+    return std::sqrt(squared);
+  }
   /// [m] The largest absolute coordinate of the corners at both ends of the leg.
-  double largest_coordinate() const;
+  double largest_coordinate() const {
+    return std::max(organ_collision::largest_coordinate(start),
+                    organ_collision::largest_coordinate(end));
+  }
 };
 
 /// The surface of an organ during a part of a step, in the organ's frame [m]. The organ rests, or
@@ -49,10 +61,21 @@ class OrganMotion {
   double finish() const { return finish_; }
 
   /// The motion of one face during this part of the step.
-  FaceMotion face(const FaceIndices& corners) const;
+  FaceMotion face(const FaceIndices& corners) const {
+    const Triangle end = after_->triangle(corners);
+    if (rests()) return {end, end};
+    const FaceMotion whole{before_->triangle(corners), end};
+    return {whole.at(begin_), finish_ == 1.0 ? end : whole.at(finish_)};
+  }
   /// [m] The largest absolute coordinate of any vertex at any time of the whole step, relative to
   /// `origin`.
-  double extent(const Eigen::Vector3d& origin) const;
+  double extent(const Eigen::Vector3d& origin) const {
+    Eigen::AlignedBox3f box = after_->box();
+    if (!rests()) box.extend(before_->box());
+    const Eigen::Vector3d low = box.min().cast<double>() - origin;
+    const Eigen::Vector3d high = box.max().cast<double>() - origin;
+    return std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
+  }
 
  private:
   const TriangleMesh* before_;

@@ -35,6 +35,10 @@ Vector3d displacement(const ShaftArc& arc, double share) {
 
 }  // namespace
 
+Eigen::Quaterniond least_rotation(const Vector3d& from, const Vector3d& to) {
+  return Eigen::Quaterniond::FromTwoVectors(from, to);
+}
+
 Vector3d ShaftArc::beside_line(double time) const {
   if (turn.isZero(0.0) || time == 0.0 || time == 1.0) return Vector3d::Zero();
   return displacement(*this, time) - time * displacement(*this, 1.0);
@@ -76,8 +80,7 @@ CoreMotion::CoreMotion(const ConvexCore& core, const RigidMotion& motion)
       in_link_(core),
       link_(&motion),
       arm_(longest_arm(core, motion)),
-      // A curve deviates from its chord by at most an eighth of its acceleration, arm * angle^2.
-      deviation_(arm_ * motion.angle() * motion.angle() / 8.0) {}
+      deviation_(motion.chord_deviation(arm_)) {}
 
 ConvexCore CoreMotion::at(double time) const {
   if (time == 0.0) return start_;

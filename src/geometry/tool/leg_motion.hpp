@@ -7,6 +7,10 @@
 
 namespace organ_collision {
 
+/// The smallest rotation that turns the direction of one vector into that of another. Neither may
+/// be zero. Eigen's function would compile a singular value decomposition in each of its callers.
+Eigen::Quaterniond least_rotation(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+
 /// One leg of a link's path, in the organ's frame [m]. The link's origin moves linearly. The link
 /// turns about a fixed direction at constant speed, by at most half a turn (slerp).
 class RigidMotion {
@@ -32,6 +36,9 @@ class RigidMotion {
   /// [m] The distance of a point, given in the link's frame, from the axis of the rotation. This
   /// axis passes through the link's origin.
   double arm(const Eigen::Vector3d& p_link) const { return axis_.cross(p_link).norm(); }
+  /// [m] An upper bound of how far a point with this arm [m] deviates from its chord: an eighth of
+  /// its acceleration, arm * angle^2. See doc/theory/geometry.md, Rims and chord deviation.
+  double chord_deviation(double arm) const { return arm * angle_ * angle_ / 8.0; }
   /// [m] How far the link's origin moves.
   double origin_displacement() const { return (end_.translation() - start_.translation()).norm(); }
 

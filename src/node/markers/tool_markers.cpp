@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "common/messages/text.hpp"
-#include "geometry/tool/least_rotation.hpp"
+#include "geometry/tool/leg_motion.hpp"
 #include "markers.hpp"
 #include "query/step.hpp"
 

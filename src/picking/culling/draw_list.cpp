@@ -56,21 +56,19 @@ void DrawList::assign(const ViewingVolume& volume, const TriangleMesh& mesh) {
 }
 
 void DrawList::assign_all(const ViewingVolume& volume, const TriangleMesh& mesh) {
-  faces_.clear();
-  undrawn_.clear();
+  clear(volume);
   for (std::size_t i = 0; i < mesh.face_count(); ++i) {
-    add(shifted(mesh.triangle(mesh.faces()[i]), volume.origin()), static_cast<std::uint32_t>(i));
+    add(shifted(mesh.triangle(i), volume.origin()), static_cast<std::uint32_t>(i));
   }
 }
 
-ViewingVolume DrawList::assign_sweep(const PartSweep& part, const OrganMotion& organ) {
+void DrawList::assign(const PartSweep& part, const OrganMotion& organ) {
   const Eigen::Vector3d& origin = part.origin();
   const double organ_extent = organ.extent(origin);
   const double most_extent = std::min(organ_extent, kMostExtent * part.thickness());
   const double most_move = kMostMove * part.thickness();
-  const ViewingVolume volume = part.volume({0.0, most_extent});
   double farthest_move = 0.0;
-  start(volume, organ);
+  start(part.volume({0.0, most_extent}), organ);
   outcodes_.for_each_face([&](const FaceClusters::Face& face) {
     if (outcodes_.has_corner_inside(face.corners)) return undrawn_.push_back(face.number);
     const FaceMotion motion = organ.face(face.corners);
@@ -84,13 +82,18 @@ ViewingVolume DrawList::assign_sweep(const PartSweep& part, const OrganMotion& o
       add(half_way, face.number);
     }
   });
-  return farthest_move > 0.0 ? part.volume({farthest_move, most_extent}) : volume;
+  if (farthest_move > 0.0) volume_ = part.volume({farthest_move, most_extent});
 }
 
 void DrawList::start(const ViewingVolume& volume, const OrganMotion& organ) {
+  clear(volume);
+  outcodes_.assign(volume, organ);
+}
+
+void DrawList::clear(const ViewingVolume& volume) {
+  volume_ = volume;
   faces_.clear();
   undrawn_.clear();
-  outcodes_.assign(volume, organ);
 }
 
 }  // namespace organ_collision

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "geometry/organ/organ_motion.hpp"
@@ -43,8 +44,8 @@ class DrawnFaces {
   std::vector<std::array<Number, 3>> numbers_;
 };
 
-/// The faces that GL draws, in the order in which they were added. Keeps its memory between
-/// queries.
+/// The faces that GL draws, in the order in which they were added, and the volume to which GL clips
+/// them. Keeps its memory between queries.
 class DrawList {
  public:
   /// Replaces the list by the faces of `mesh` that outcodes do not reject, cluster by cluster.
@@ -56,23 +57,25 @@ class DrawList {
   void assign_all(const ViewingVolume& volume, const TriangleMesh& mesh);
 
   /// Replaces the list by the faces of an organ that may meet a part during their motion. Each face
-  /// is drawn where it is half way. Returns the volume to which GL has to clip them. It contains
-  /// the space that the part sweeps, grown by the largest distance of a drawn face from its place
-  /// half way, and grown for 32-bit clipping. Some faces are listed in undrawn() instead: those
-  /// with a corner inside, which meet the volume anyway, and those that move or reach so far that
-  /// the volume would become large.
-  ViewingVolume assign_sweep(const PartSweep& part, const OrganMotion& organ);
+  /// is drawn where it is half way. The volume contains the space that the part sweeps, grown by
+  /// the largest distance of a drawn face from its place half way, and grown for 32-bit clipping.
+  /// Some faces are listed in undrawn() instead: those with a corner inside, which meet the volume
+  /// anyway, and those that move or reach so far that the volume would become large.
+  void assign(const PartSweep& part, const OrganMotion& organ);
 
   /// Adds a face in the volume's shifted coordinates.
   void add(const Triangle& face, std::uint32_t number) { faces_.add(face, number); }
 
+  const ViewingVolume& volume() const { return *volume_; }
   const DrawnFaces& faces() const { return faces_; }
   /// The numbers of the faces that may meet the part but are not drawn.
   const std::vector<std::uint32_t>& undrawn() const { return undrawn_; }
 
  private:
   void start(const ViewingVolume& volume, const OrganMotion& organ);
+  void clear(const ViewingVolume& volume);
 
+  std::optional<ViewingVolume> volume_;
   DrawnFaces faces_;
   std::vector<std::uint32_t> undrawn_;
   Outcodes outcodes_;

@@ -10,8 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "organ_collision/picking/gl_error.hpp"
-#include "platform_context.hpp"
+#include "gl_context.hpp"
 
 // All EGL functions that this file calls, without the prefix egl.
 // clang-format off

@@ -4,8 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "organ_collision/picking/gl_error.hpp"
-#include "platform_context.hpp"
+#include "gl_context.hpp"
 
 namespace organ_collision {
 namespace {

@@ -42,23 +42,23 @@ class GlPicker final : public Picker {
       draw_list_.assign(volume, mesh);
     }
     counts_.drawn += faces().size();
-    add_witness(volume);
-    if (!clip(volume, candidates)) {
+    add_witness();
+    if (!clip(candidates)) {
       fail_if_blind(context_);
       // If the witness is lost again, the volume is thin. The paper's modes then report what GL
       // returns.
-      clip(volume, candidates);
+      clip(candidates);
     }
     sort(mesh.face_count(), candidates);
   }
 
   void pick(const PartSweep& part, const OrganMotion& organ,
             std::vector<Candidate>& candidates) override {
-    const ViewingVolume volume = draw_list_.assign_sweep(part, organ);
+    draw_list_.assign(part, organ);
     counts_.drawn += faces().size();
     counts_.undrawn += draw_list_.undrawn().size();
-    add_witness(volume);
-    if (!clip(volume, candidates)) {
+    add_witness();
+    if (!clip(candidates)) {
       fail_if_blind(context_);
       take_drawn(candidates);  // So no contact is missed.
     }
@@ -94,19 +94,19 @@ class GlPicker final : public Picker {
   const DrawnFaces& faces() const { return draw_list_.faces(); }
 
   /// Adds the witness (see kWitness) as the last face that GL draws.
-  void add_witness(const ViewingVolume& volume) {
-    if (!faces().empty()) draw_list_.add(middle_face(volume), kWitness);
+  void add_witness() {
+    if (!faces().empty()) draw_list_.add(middle_face(draw_list_.volume()), kWitness);
   }
 
   /// Replaces `candidates` by the faces of the draw list that meet the volume. Returns whether GL
   /// returned the witness, too, or had nothing to draw.
-  bool clip(const ViewingVolume& volume, std::vector<Candidate>& candidates) {
+  bool clip(std::vector<Candidate>& candidates) {
     candidates.clear();
     if (faces().empty()) return true;
     if (selects_) {
-      select(volume, candidates);
+      select(candidates);
     } else {
-      feed_back(volume, candidates);
+      feed_back(candidates);
     }
     if (candidates.empty() || candidates.back().face != kWitness) return false;
     candidates.pop_back();
@@ -115,7 +115,8 @@ class GlPicker final : public Picker {
 
   /// Adds the faces that GL returns in GL_FEEDBACK mode, in the order drawn. GL may split a face
   /// into several primitives, which follow each other.
-  void feed_back(const ViewingVolume& volume, std::vector<Candidate>& candidates) {
+  void feed_back(std::vector<Candidate>& candidates) {
+    const ViewingVolume& volume = draw_list_.volume();
     const std::size_t size = draw_feedback(context_, volume, faces(), feedback_);
     try {
       for_each_vertex(feedback_, size, [&](std::uint32_t face, double window_depth) {
@@ -151,9 +152,10 @@ class GlPicker final : public Picker {
   }
 
   /// Adds the faces that GL returns in GL_SELECT mode, in the order drawn.
-  void select(const ViewingVolume& volume, std::vector<Candidate>& candidates) {
+  void select(std::vector<Candidate>& candidates) {
+    const ViewingVolume& volume = draw_list_.volume();
     hits_.resize(kRecord * faces().size());
-    const std::size_t count = draw_named(volume);
+    const std::size_t count = draw_named();
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t* const record = &hits_[kRecord * i];
       candidates.push_back({record[3], volume.view_depth(window_depth(record[1])),
@@ -163,8 +165,8 @@ class GlPicker final : public Picker {
 
   /// Draws each face under its own name, and returns the number of hits. Does not use glBegin and
   /// glEnd: in GL_SELECT mode, Mesa 22.3 then leaks buffers of 512 KB.
-  std::size_t draw_named(const ViewingVolume& volume) {
-    const GlFunctions& gl = prepare_to_draw(context_, volume, faces());
+  std::size_t draw_named() {
+    const GlFunctions& gl = prepare_to_draw(context_, draw_list_.volume(), faces());
     gl.DepthRange(kNearDepth, kFarDepth);
     gl.SelectBuffer(static_cast<GLsizei>(hits_.size()), hits_.data());
     gl.RenderMode(GL_SELECT);

@@ -8,7 +8,6 @@
 
 #include "geometry/organ/organ_motion.hpp"
 #include "organ_collision/geometry/organ/triangle_mesh.hpp"
-#include "organ_collision/picking/gl_error.hpp"
 #include "organ_collision/picking/picker_settings.hpp"
 #include "picking/volumes/conservative_volume.hpp"
 #include "picking/volumes/viewing_volume.hpp"
@@ -73,7 +72,5 @@ std::unique_ptr<Picker> make_picker(const PickerSettings& settings);
 /// draws in GL_SELECT mode, as the 1999 paper does: each face under its own name. For a given
 /// volume, it draws all faces of the mesh.
 std::unique_ptr<Picker> new_gl_picker(const PickerSettings& settings);
-/// Makes a picker of PickerKind::kCpu.
-std::unique_ptr<Picker> new_cpu_picker();
 
 }  // namespace organ_collision

@@ -173,18 +173,17 @@ ViewingVolume cut_box(const Ends& ends, double radius, double extent, const Roun
 
 // If the ends of the axis move on arcs, the volume of their linear motion is grown by the
 // deviation.
-ViewingVolume swept_volume(const ShaftMotion& motion, double radius, double extent,
-                           const Rounding& rounding) {
-  radius += motion.deviation();
-  const Ends ends(motion);
-  const double reach = std::max(extent, ends.extent() + radius);
+ViewingVolume volume_of(const SweptShaft& shaft, const VolumeMargin& margin,
+                        const Rounding& rounding) {
+  const double radius = shaft.radius + margin.motion + shaft.motion.deviation();
+  const Ends ends(shaft.motion);
+  const double reach = std::max(margin.extent, ends.extent() + radius);
   if (const auto volume = wedge(ends, radius, reach, rounding)) return *volume;
   return cut_box(ends, radius, reach, rounding);
 }
 
-/// The volume of a swept box, grown by margin.motion and for rounding.
-ViewingVolume box_volume(const SweptBox& box, const VolumeMargin& margin,
-                         const Rounding& rounding) {
+/// An orthographic box.
+ViewingVolume volume_of(const SweptBox& box, const VolumeMargin& margin, const Rounding& rounding) {
   const Eigen::Vector3d origin = box.axes().transpose() * box.origin();
   const Eigen::Vector3d low = box.low() - origin, high = box.high() - origin;
   const double reach =
@@ -197,19 +196,19 @@ ViewingVolume box_volume(const SweptBox& box, const VolumeMargin& margin,
 
 }  // namespace
 
-ViewingVolume conservative_volume(const ShaftMotion& motion, double radius,
-                                  const VolumeMargin& margin) {
-  return swept_volume(motion, radius + margin.motion, margin.extent, kClippingRounding);
+PartSweep::PartSweep(const SweptBox& box) : space_(box), origin_(box.origin()) {
+  Eigen::Vector3d edges = box.high() - box.low();
+  std::sort(edges.data(), edges.data() + edges.size());
+  thickness_ = 0.5 * edges[1];
 }
 
-ViewingVolume tool_volume(const ShaftMotion& motion, double radius) {
-  return swept_volume(motion, radius, 0.0, kNoRounding);
+ViewingVolume PartSweep::volume(const VolumeMargin& margin) const {
+  return std::visit([&](const auto& space) { return volume_of(space, margin, kClippingRounding); },
+                    space_);
 }
 
-ViewingVolume conservative_volume(const SweptBox& box, const VolumeMargin& margin) {
-  return box_volume(box, margin, kClippingRounding);
+ViewingVolume PartSweep::tool_volume() const {
+  return std::visit([](const auto& space) { return volume_of(space, {}, kNoRounding); }, space_);
 }
-
-ViewingVolume tool_volume(const SweptBox& box) { return box_volume(box, {}, kNoRounding); }
 
 }  // namespace organ_collision

@@ -26,7 +26,7 @@ Eigen::Vector3d direction(const Eigen::Vector3d& vector) { return vector.stableN
 // largest coordinate: only rounding separates them.
 constexpr double kSameCorner = 1e-15;
 
-void add_corner(const Eigen::Vector3d& corner, ConvexPolygon& polygon) {
+void add_corner(const Eigen::Vector3d& corner, Region& polygon) {
   const auto is_same = [&](const Eigen::Vector3d& other) {
     return (corner - other).cwiseAbs().maxCoeff() <= kSameCorner * corner.cwiseAbs().maxCoeff();
   };
@@ -37,11 +37,11 @@ void add_corner(const Eigen::Vector3d& corner, ConvexPolygon& polygon) {
 
 /// Clips a convex polygon to a half-space. Source: Sutherland and Hodgman, "Reentrant polygon
 /// clipping" (1974).
-ConvexPolygon clipped(const ConvexPolygon& polygon, const HalfSpace& half_space) {
+Region clipped(const Region& polygon, const HalfSpace& half_space) {
   const auto height = [&](const Eigen::Vector3d& corner) {
     return half_space.normal.dot(corner) - half_space.offset;
   };
-  ConvexPolygon inside;
+  Region inside;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Eigen::Vector3d& from = polygon[i];
     const Eigen::Vector3d& to = polygon[(i + 1) % polygon.size()];
@@ -151,8 +151,8 @@ Triangle middle_face(const ViewingVolume& volume) {
   return {point(0), point(1), point(2)};
 }
 
-ConvexPolygon clipped(const Triangle& face, const ViewingVolume& volume) {
-  ConvexPolygon polygon(face.begin(), face.end());
+Region clipped(const Triangle& face, const ViewingVolume& volume) {
+  Region polygon(face.begin(), face.end());
   for (std::size_t i = 0; i < volume.half_space_count() && !polygon.empty(); ++i) {
     polygon = clipped(polygon, volume.half_space(i));
   }

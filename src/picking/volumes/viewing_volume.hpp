@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "organ_collision/geometry/triangle.hpp"
-#include "organ_collision/picking/region.hpp"
 
 namespace organ_collision {
 
@@ -82,13 +81,9 @@ Eigen::Matrix3d camera_axes(const Eigen::Vector3d& view, const Eigen::Vector3d& 
 /// the face. See doc/theory/geometry.md, GL's clipping.
 Triangle middle_face(const ViewingVolume& volume);
 
-/// The corners of a convex polygon, in their order along its border. One corner is a point, two are
-/// a segment, and none is the empty polygon.
-using ConvexPolygon = std::vector<Eigen::Vector3d>;
-
 /// The part of a face in a viewing volume, in double precision. The face and its part are in the
 /// volume's shifted coordinates [m]. A face that only touches the volume has such a part, too.
-ConvexPolygon clipped(const Triangle& face, const ViewingVolume& volume);
+Region clipped(const Triangle& face, const ViewingVolume& volume);
 
 /// The same for a face in the organ's frame.
 Region region_of(const Triangle& face, const ViewingVolume& volume);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/tool/least_rotation.hpp"
 #include "geometry/tool/leg_motion.hpp"
 
 namespace organ_collision {

@@ -8,7 +8,6 @@
 #include <set>
 #include <vector>
 
-#include "organ_collision/geometry/organ/block_boxes.hpp"
 #include "test/grid_surface.hpp"
 
 namespace organ_collision {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <random>
 
-#include "geometry/sides/exact_signs.hpp"
 #include "geometry/sides/face_crossing.hpp"
 #include "test/proof/exact_sides.hpp"
 #include "test/proof/trials.hpp"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "picking/gl/drawing.hpp"
-#include "picking/gl/platform_context.hpp"
+#include "picking/gl/gl_context.hpp"
 #include "test/refusals.hpp"
 
 namespace organ_collision {

@@ -99,7 +99,7 @@ class AimedFaces : public PickerTest {
     if ((face.touch - (on_core + by)).norm() > radius) return;
     ++aimed_;
     const VolumeMargin margin{0.0, extent(face.mesh, motion.start.trocar)};
-    expect_picked(conservative_volume(motion, radius, margin), face.mesh, motion);
+    expect_picked(PartSweep(motion, radius).volume(margin), face.mesh, motion);
   }
 
   Random random_{31};
@@ -113,7 +113,7 @@ TEST_P(AimedFaces, OfShaftsAreNeverMissed) {
     const double offset = i % 2 == 0 ? 0.3 : random_.scale(1, 1000);
     const ShaftMotion motion = random_motion(motion_kind(i), offset, random_);
     const double radius = random_.scale(0.0005, 0.01);
-    shoot(motion, radius, aim(conservative_volume(motion, radius, {}), random_), 3);
+    shoot(motion, radius, aim(PartSweep(motion, radius).volume({}), random_), 3);
   }
   EXPECT_GT(aimed_, 150'000);
 }
@@ -136,7 +136,7 @@ TEST_P(AimedFaces, AreNotMissedWhereThePerspectiveDivisionIsWorst) {
     const double radius =
         length * std::cos(half_angle) / far_over_near / (1 / std::sin(half_angle) - 1);
     const ShaftMotion motion{{trocar, tip(-half_angle)}, {trocar, tip(half_angle)}};
-    const ViewingVolume volume = conservative_volume(motion, radius, {});
+    const ViewingVolume volume = PartSweep(motion, radius).volume({});
     perspective += volume.clip().row(3).head<3>().norm() > 0;
     shoot(motion, radius, volume.half_space(i % 2 == 0 ? 5 : 6).normal, 0.01);
   }

@@ -161,7 +161,7 @@ TEST_P(PickerTest, PicksTheSameOnBothPlatformsBitForBit) {
     const double radius = random.scale(5e-4, 0.01);
     const TriangleMesh mesh = faces_near(motion, 60, 3 * radius, random);
     expect_same(PartSweep(motion, radius), OrganMotion(mesh));
-    expect_same(conservative_volume(motion, radius, {}), mesh);
+    expect_same(PartSweep(motion, radius).volume({}), mesh);
     picked += found.size();
   }
   EXPECT_GT(picked, 20'000u);

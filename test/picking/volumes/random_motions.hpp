@@ -11,7 +11,7 @@
 
 #include "geometry/tool/leg_motion.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
-#include "organ_collision/geometry/tool/oriented_box.hpp"
+#include "organ_collision/geometry/tool/convex_core.hpp"
 #include "organ_collision/geometry/tool/shaft.hpp"
 #include "picking/volumes/viewing_volume.hpp"
 #include "test/proof/link_trials.hpp"

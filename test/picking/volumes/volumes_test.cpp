@@ -169,14 +169,15 @@ TEST(ConservativeVolume, ContainsTheSweptCapsule) {
     const ShaftMotion motion = random_motion(motion_kind(i), offset, random);
     const double radius = random.scale(0.0005, 0.01);
     const VolumeMargin margin = random_margin(i, random);
-    const ViewingVolume volume = conservative_volume(motion, radius, margin);
+    const ViewingVolume volume = PartSweep(motion, radius).volume(margin);
     expect_legal(volume);
     ASSERT_LE(excess(volume, motion) + radius + margin.motion, -2.5e-7 * margin.extent)
         << motion << " radius " << radius << " motion " << margin.motion << " extent "
         << margin.extent;
     ++cameras[is_perspective(volume) ? 1 : 0];
     if (offset == 0.3) {
-      ASSERT_NEAR(excess(tool_volume(motion, radius), motion) + radius, 0, 1e-12) << motion;
+      ASSERT_NEAR(excess(PartSweep(motion, radius).tool_volume(), motion) + radius, 0, 1e-12)
+          << motion;
     }
   }
   EXPECT_GT(cameras[0], 25'000);
@@ -192,7 +193,7 @@ TEST(ConservativeVolume, TakesInLittleMoreThanTheSweptCapsule) {
     const ShaftMotion motion = random_motion(motion_kind(i), 0.3, random);
     if (motion.start.trocar != motion.end.trocar) continue;
     const double radius = random.scale(0.0005, 0.01);
-    const ViewingVolume volume = conservative_volume(motion, radius, {});
+    const ViewingVolume volume = PartSweep(motion, radius).volume({});
     const Triangle swept = {motion.start.trocar, motion.start.tip, motion.end.tip};
     for (int k = 0; k < 50; ++k) {
       const Vector3d point = motion.at(random.uniform(0, 1)).at(random.uniform(0, 1)) +
@@ -226,14 +227,14 @@ TEST(ConservativeVolume, ContainsAMovingBox) {
     const MovingBox moving = random_box(i % 2 == 0 ? 0.3 : random.scale(1, 1000), random);
     const VolumeMargin margin = random_margin(i, random);
     const SweptBox swept(moving.box, moving.motion(), moving.radius);
-    const ViewingVolume volume = conservative_volume(swept, margin);
+    const ViewingVolume volume = PartSweep(swept).volume(margin);
     expect_legal(volume);
     EXPECT_EQ(volume.user_plane_count(), 0U);
     for (int k = 0; k < 10; ++k) {
       const double out = excess(volume, moving, k < 2 ? k : random.uniform(0, 1));
       ASSERT_LE(out + moving.radius + margin.motion, -2.5e-7 * margin.extent + 1e-12) << moving;
     }
-    const ViewingVolume tight = tool_volume(swept);
+    const ViewingVolume tight = PartSweep(swept).tool_volume();
     const double out = std::max(excess(tight, moving, 0), excess(tight, moving, 1));
     if (i % 2 != 0 || moving.motion().angle() > 1e-8) continue;
     EXPECT_NEAR(out + moving.radius, 0, 1e-12) << "its sides touch the box" << moving;
@@ -263,7 +264,7 @@ TEST(ViewingVolume, HalfSpacesAgreeWithMatrixAndUserPlanes) {
         i % 3 == 0 ? random_motion(MotionKind::kMovingTrocar, 0.4, random) : paper_motion(random);
     const double radius = random.scale(0.0005, 0.02);
     const ViewingVolume volume =
-        i % 3 == 1 ? paper_swept_volume(motion, radius) : conservative_volume(motion, radius, {});
+        i % 3 == 1 ? paper_swept_volume(motion, radius) : PartSweep(motion, radius).volume({});
     for (int k = 0; k < 30; ++k) {
       const ShaftAxis axis = motion.at(random.uniform(-0.1, 1.1));
       const Vector3d point =
@@ -293,14 +294,14 @@ TEST(MiddleFace, MeetsEachVolume) {
   for (int i = 0; i < 60'000; ++i) {
     ShaftMotion motion = random_motion(motion_kind(i), i % 2 == 0 ? 0.3 : 200, random);
     const double radius = random.scale(1e-4, 0.02);
-    ASSERT_GT(depth_of_middle(conservative_volume(motion, radius, {0.0, 1.0})), 1e-6) << motion;
+    ASSERT_GT(depth_of_middle(PartSweep(motion, radius).volume({0.0, 1.0})), 1e-6) << motion;
     if (i % 3 != 0) continue;
     motion = random_motion(MotionKind::kSideways, 0.3, random);
     ASSERT_GT(depth_of_middle(paper_static_volume(motion.end, radius)), 1e-6) << motion << radius;
     ASSERT_GT(depth_of_middle(paper_swept_volume(motion, radius)), 1e-6) << motion << radius;
     const MovingBox moving = random_box(0.3, random);
     const SweptBox swept(moving.box, moving.motion(), moving.radius);
-    ASSERT_GT(depth_of_middle(conservative_volume(swept, {0.0, 1.0})), 1e-6) << moving;
+    ASSERT_GT(depth_of_middle(PartSweep(swept).volume({0.0, 1.0})), 1e-6) << moving;
   }
 }
 
@@ -316,8 +317,7 @@ Triangle random_face(const ShaftMotion& motion, Random& random) {
 
 /// Whether a point of the polygon's plane is inside, by the side of each edge on which it lies.
 /// `slack`: twice an area [m^2].
-bool contains(const ConvexPolygon& polygon, const Vector3d& point, const Vector3d& normal,
-              double slack) {
+bool contains(const Region& polygon, const Vector3d& point, const Vector3d& normal, double slack) {
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vector3d edge = polygon[(i + 1) % polygon.size()] - polygon[i];
     if (edge.cross(point - polygon[i]).dot(normal) < -slack) return false;
@@ -332,9 +332,9 @@ TEST(ClippedFace, HasThePointsOfTheFaceThatAreInTheVolume) {
   int inside = 0, outside = 0;
   for (int i = 0; i < 3000; ++i) {
     const ShaftMotion motion = random_motion(motion_kind(i), 0.3, random);
-    const ViewingVolume volume = conservative_volume(motion, 0.005, {});
+    const ViewingVolume volume = PartSweep(motion, 0.005).volume({});
     const Triangle face = shifted(random_face(motion, random), volume.origin());
-    const ConvexPolygon part = clipped(face, volume);
+    const Region part = clipped(face, volume);
     const Vector3d normal = twice_area(face).normalized();
     for (int k = 0; k < 20; ++k) {
       const double share = random.uniform(0, 1), other = random.uniform(0, 1 - share);

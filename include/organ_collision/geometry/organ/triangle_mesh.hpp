@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "organ_collision/geometry/organ/block_boxes.hpp"
 #include "organ_collision/geometry/organ/face_clusters.hpp"
 #include "organ_collision/geometry/triangle.hpp"
 

@@ -10,6 +10,25 @@
 
 namespace organ_collision {
 
+/// The interval that a shape covers along a direction: the least and the greatest value of
+/// direction · point over its points. In metres if the direction is a unit vector.
+struct ProjectionInterval {
+  double low;   ///< the least value
+  double high;  ///< the greatest value
+};
+
+/// A box in any orientation [m].
+struct OrientedBox {
+  Eigen::Vector3d center;     ///< the middle of the box
+  Eigen::Matrix3d axes;       ///< directions of the edges: orthonormal columns, right-handed
+  Eigen::Vector3d half_size;  ///< half of the edge lengths along `axes`; not negative
+
+  /// The greatest direction · point of the box. `direction` need not be a unit vector.
+  double support_value(const Eigen::Vector3d& direction) const {
+    return direction.dot(center) + (direction.transpose() * axes).cwiseAbs() * half_size;
+  }
+};
+
 /// A convex part of a tool without its radius: the hull of up to eight points or of two discs [m].
 /// The part of the tool is all points within the radius of the core. One point is the core of a
 /// ball, two points of a shaft, three of a triangle of a mesh, eight of a box, and two discs of a

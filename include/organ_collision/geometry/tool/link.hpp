@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "organ_collision/geometry/tool/convex_core.hpp"
-#include "organ_collision/geometry/tool/oriented_box.hpp"
 #include "organ_collision/geometry/tool/tool_surface.hpp"
 
 namespace organ_collision {

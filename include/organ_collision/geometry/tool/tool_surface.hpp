@@ -6,8 +6,7 @@
 
 #include "organ_collision/geometry/organ/face_clusters.hpp"
 #include "organ_collision/geometry/organ/triangle_mesh.hpp"
-#include "organ_collision/geometry/projection_interval.hpp"
-#include "organ_collision/geometry/tool/oriented_box.hpp"
+#include "organ_collision/geometry/tool/convex_core.hpp"
 #include "organ_collision/geometry/triangle.hpp"
 
 namespace organ_collision {
