@@ -218,8 +218,8 @@ void HapticProxyNode::await_shape(const OrganUpdate& update) {
   const std::string& name = update.message.organ();
   const auto organ = inbox_.organs.organs().find(name);
   for (std::size_t tool = 0; tool < hands_.size(); ++tool) {
-    if (!core_.tools()[tool].parameters.lockstep) continue;
     Hand& hand = hands_[tool];
+    if (!hand.proxy || !hand.proxy->tool().lockstep) continue;
     const bool goes_on = update.change == OrganChange::kShape && hand.shapes.size() < kMostAwaited;
     const auto is_of_organ = [&](const AwaitedShape& awaited) {
       return awaited.organ == name &&
@@ -243,10 +243,10 @@ void HapticProxyNode::answer_shapes(std::size_t tool, Time now) {
     if (hand.why_not) throw Rejection(*hand.why_not);
   }
   while (!hand.shapes.empty()) {
-    const auto pose = pose_for(tool, hand.shapes.front(), now);
-    if (!pose) return;
     const AwaitedShape awaited = std::move(hand.shapes.front());
     hand.shapes.pop_front();
+    const auto pose = pose_for(tool, awaited, now);
+    if (!pose) return hand.shapes.push_front(awaited);
     tick(hand, *pose, scene_of(awaited), now, awaited.organ);
   }
 }
@@ -402,7 +402,7 @@ std::optional<SteadyTime> HapticProxyNode::next_deadline() {
       add(now + kFadeStep);
     }
     const auto timeout = duration(parameters_.pose_timeout_sec);
-    if (!hand.shapes.empty()) add(hand.shapes.front().since + timeout);
+    if (!hand.shapes.empty() && !hand.is_leaving) add(hand.shapes.front().since + timeout);
     if (!hand.why_not && hand.heard && !hand.stamp.isZero()) add(*hand.heard + timeout);
   }
   if (!next) return std::nullopt;
