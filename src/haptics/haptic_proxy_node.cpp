@@ -191,8 +191,14 @@ ProxyScene HapticProxyNode::scene_at(Time now) {
     const OrganShape& latest = organ.latest();
     return {interpolates ? shapes_.shape(organ, now) : latest.mesh, latest.stamp};
   };
-  ProxyScene scene = proxy_scene(inbox_.organs, inbox_.transforms, frame_.name(), age_limits(),
-                                 ros::Time::now(), shape_of);
+  return scene_with(shape_of, age_limits(), {});
+}
+
+/// The organs at the time `at`, with the sides to which the user keeps tools. Throws Rejection.
+ProxyScene HapticProxyNode::scene_with(const ShapeOf& shape_of, const AgeLimits& limits,
+                                       ros::Time at) {
+  ProxyScene scene = proxy_scene(inbox_.organs, inbox_.transforms, frame_.name(), limits,
+                                 ros::Time::now(), shape_of, at);
   for (std::size_t i = 0; i < scene.organs.size(); ++i) {
     const auto kept = parameters_.keep.find(scene.sources[i]->name());
     if (kept != parameters_.keep.end()) scene.organs[i].keep = kept->second;
@@ -207,9 +213,7 @@ ProxyScene HapticProxyNode::scene_of(const AwaitedShape& awaited) {
     if (organ.name() == awaited.organ) return awaited.shape;
     return {organ.latest().mesh, organ.latest().stamp};
   };
-  return proxy_scene(inbox_.organs, inbox_.transforms, frame_.name(),
-                     {parameters_.mesh_timeout_sec, 0.0}, ros::Time::now(), shape_of,
-                     awaited.shape.stamp);
+  return scene_with(shape_of, {parameters_.mesh_timeout_sec, 0.0}, awaited.shape.stamp);
 }
 
 /// All tools in lockstep have to answer the new shape of an organ. Shapes of other triangles than

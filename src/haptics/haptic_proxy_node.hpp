@@ -85,6 +85,7 @@ class HapticProxyNode final : public OrganNode {
   Timed<ToolPose> latest_pose(std::size_t tool) const;
   ProxyScene scene_at(Time now);
   ProxyScene scene_of(const AwaitedShape& awaited);
+  ProxyScene scene_with(const ShapeOf& shape_of, const AgeLimits& limits, ros::Time at);
   bool is_due(std::size_t tool, ros::Time stamp, bool have_organs_moved, Time now);
   void tick(Hand& hand, const Timed<ToolPose>& pose, const ProxyScene& scene, Time now,
             const std::string& answered_organ = "");

@@ -1,5 +1,6 @@
 #include "tool_proxy.hpp"
 
+#include <organ_collision/ContactArray.h>
 #include <tf2_eigen/tf2_eigen.h>
 
 #include <cmath>
