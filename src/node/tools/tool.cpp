@@ -90,8 +90,8 @@ bool is_same(const Tool& a, const Tool& b) {
     const ToolParameters& p = tool.parameters;
     return std::tie(p.name, p.trocar_frame, p.tip_frame, p.radius, p.tip_pose_topic,
                     p.base_pose_topic, p.links, p.robot_description, p.urdf, p.tf_prefix, p.margin,
-                    p.max_near, p.freedom, p.lockstep, p.trocar_offset, p.tip_offset,
-                    tool.fault, tool.fingerprint);
+                    p.max_near, p.freedom, p.lockstep, p.trocar_offset, p.tip_offset, tool.fault,
+                    tool.fingerprint);
   };
   return members(a) == members(b);
 }
