@@ -220,7 +220,7 @@ std::vector<OrganTick> HapticProxy::State::match(const std::vector<ProxyOrgan>& 
                                                  bool goes_on) const {
   std::vector<OrganTick> ticks;
   for (const ProxyOrgan& organ : organs) {
-    OrganTick tick;
+    OrganTick& tick = ticks.emplace_back();
     tick.now = organ.shape.get();
     tick.topology = organ.topology;
     tick.T_now = tick.T_before = organ.T_organ_proxy;
@@ -235,7 +235,6 @@ std::vector<OrganTick> HapticProxy::State::match(const std::vector<ProxyOrgan>& 
       tick.T_before = last.T_organ_proxy;
       tick.is_new = organ.topology && !last.topology;
     }
-    ticks.push_back(tick);
   }
   return ticks;
 }
