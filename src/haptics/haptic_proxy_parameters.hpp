@@ -134,10 +134,10 @@ inline ParameterTable table_of(HapticProxyParameters& p) {
       .live();
   t.other(
       "keep", "outside of all organs", [&p](const ParameterGroup& all) { parse_keep(all, p); },
-      "list of the organs on whose other side tools work: each has organ, its name, and side. "
-      "inside: of a hollow organ with a closed surface, whose wall holds the tool. either: the "
-      "side on which the tool starts. A surface that is not closed has no sides: there, each tool "
-      "keeps the side on which it starts");
+      "list of organs in which tools work. Each has organ, the name of the organ, and side: inside "
+      "(the wall of a hollow organ holds the tool), either (each tool keeps the side on which it "
+      "starts) or outside. A surface that is not closed has no inside: there, side is always "
+      "either");
   t.number("pose_timeout_sec", p.pose_timeout_sec, kTimerPeriod,
            "[s] of wall time after the last pose of the hand, the force fades. Raise it for poses "
            "slower than 100 Hz. A tool with `lockstep` waits so long for its pose at the stamp of "

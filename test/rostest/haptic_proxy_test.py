@@ -26,6 +26,7 @@ STIFFNESS = 200.0  # [N/m]
 CLEARANCE = 1e-4  # [m]
 RADIUS = {'needle': 0.003, 'probe': 0.005, 'stylus': 0.004}  # [m]
 SHEET = scenes.sheet(0.1, 4)
+HALL = scenes.box((0.8, 0.8, 0.8)).moved(lambda v: (v[0], v[1], v[2] + 0.4))  # all trocars are in it, and its floor is at 0
 X, Y = 0.013, 0.007  # [m] where the hands stab
 TROCAR = (0.02, -0.01, 0.3)
 AIR, DEEP = (X, Y, 0.03), (X, Y, -0.02)
@@ -96,8 +97,8 @@ class ProxyCase(unittest.TestCase):
         self.remove_service(organ)
         wait_until(lambda: organ not in self.organs(), 'removal')
 
-    def send_sheet(self):
-        self.meshes.publish(mesh_message(self.organ, SHEET, frame=FRAME))
+    def send_sheet(self, mesh=SHEET):
+        self.meshes.publish(mesh_message(self.organ, mesh, frame=FRAME))
         wait_until(lambda: self.organ in self.organs(), 'the organ')
 
     def change(self, name, value):
@@ -161,6 +162,16 @@ class HapticProxyTest(ProxyCase):
             force, torque = vector(wrench.wrench.force), vector(wrench.wrench.torque)
             self.assertAlmostEqual(torque[0], Y * force[2], delta=1e-3)  # The force acts at the tip.
             self.assertAlmostEqual(torque[1], -X * force[2], delta=1e-3)
+
+    def test_a_hollow_organ_keeps_a_tool_inside(self):
+        for self.organ in ('bladder', 'colon'):
+            self.send_sheet(HALL)
+            self.stab()
+            self.remove(self.organ)
+
+    def test_an_organ_that_is_not_kept_inside_is_not_entered(self):
+        self.send_sheet(HALL)
+        self.hold_until('needle', AIR, lambda state: no_force(state) and '(keep)' in state.message, 'no answer')
 
     def test_a_hand_in_the_air_is_free_and_feels_nothing(self):
         self.send_sheet()

@@ -220,7 +220,7 @@ std::vector<OrganTick> HapticProxy::State::match(const std::vector<ProxyOrgan>& 
                                                  bool goes_on) const {
   std::vector<OrganTick> ticks;
   for (const ProxyOrgan& organ : organs) {
-    OrganTick tick;
+    OrganTick& tick = ticks.emplace_back();
     tick.now = organ.shape.get();
     tick.topology = organ.topology;
     tick.T_now = tick.T_before = organ.T_organ_proxy;
@@ -235,19 +235,16 @@ std::vector<OrganTick> HapticProxy::State::match(const std::vector<ProxyOrgan>& 
       tick.T_before = last.T_organ_proxy;
       tick.is_new = organ.topology && !last.topology;
     }
-    ticks.push_back(tick);
   }
   return ticks;
 }
 
 /// Chooses the side of each closed organ of which the tool keeps the side where it starts.
 void HapticProxy::State::choose_sides(Tick& tick) {
-  const ToolPose& pose = tick.place ? tick.place->pose : tick.hand;
-  const Eigen::Vector3d point =
-      tool.freedom == ProxyFreedom::kTrocar ? pose.axis.trocar : mobility->center(pose);
+  const ShaftAxis place = tissue.places_of(tick.place ? tick.place->pose : tick.hand).front();
   for (OrganTick& organ : tick.motions) {
     if (organ.keep != Side::kUnknown || !organ.topology || !organ.topology->is_closed()) continue;
-    const Side side = tissue.side(organ, point);
+    const Side side = tissue.side(organ, place);
     if (side != Side::kOnSurface) organ.keep = side;
   }
 }
@@ -261,7 +258,8 @@ bool HapticProxy::State::is_in_new_tissue(Tick& tick) {
   if (new_organs.empty()) return false;
   ProxyPlace& start = *tick.place;
   tissue.set_organs(new_organs);
-  const bool is_wrong = tissue.is_on_wrong_side(start.pose, mobility->center(start.pose));
+  // The links of a squeezed tool reach into tissue, so only its first place counts.
+  const bool is_wrong = tissue.is_on_wrong_side({tissue.places_of(start.pose).front()});
   std::vector<TissueContact> contacts;
   tissue.touch({start.pose}, settings.clearance, contacts);
   for (const TissueContact& contact : contacts) {

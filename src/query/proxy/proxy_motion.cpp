@@ -313,7 +313,7 @@ std::optional<ProxyPlace> ProxyMotion::enter(ProxyFreedom freedom, const ToolPos
 std::optional<ProxyPlace> ProxyMotion::first_free(const std::vector<ToolPose>& poses) {
   for (const ToolPose& pose : poses) {
     tissue_.touch({pose}, clearance_.rest, met_);
-    if (!met_.empty() || tissue_.is_on_wrong_side(pose, mobility_.center(pose))) continue;
+    if (!met_.empty() || tissue_.is_on_wrong_side(tissue_.places_of(pose))) continue;
     return ProxyPlace{pose, clearance_.rest};
   }
   return std::nullopt;

@@ -69,20 +69,32 @@ void Tissue::touch(const std::vector<ToolPose>& way, double growth,
   }
 }
 
-bool Tissue::is_on_wrong_side(const ToolPose& pose, const Eigen::Vector3d& point) {
-  const ShaftAxis axis = tool_.radius > 0.0 ? pose.axis : ShaftAxis{point, point};
-  return std::any_of(organs_->begin(), organs_->end(), [&](const OrganTick& organ) {
-    const AxisPlacement& found = placement(organ, axis, organ.topology);
-    const auto is_wrong = [&organ](Side side) {
-      return (organ.keep == Side::kOutside && side == Side::kInside) ||
-             (organ.keep == Side::kInside && side == Side::kOutside);
-    };
-    return is_wrong(found.tip) || is_wrong(found.trocar) || !found.crossings.empty();
-  });
+std::vector<ShaftAxis> Tissue::places_of(const ToolPose& pose) const {
+  std::vector<ShaftAxis> places;
+  if (tool_.radius > 0.0) places.push_back(pose.axis);
+  for (std::size_t link = 0; link < tool_.links.size(); ++link) {
+    for (const LinkPart& part : tool_.links[link].parts) {
+      const Eigen::Vector3d point =
+          pose.links[link] * (part.surface ? part.surface->vertices()[0] : part.core.points[0]);
+      places.push_back({point, point});
+    }
+  }
+  return places;
 }
 
-Side Tissue::side(const OrganTick& organ, const Eigen::Vector3d& point) {
-  return placement(organ, {point, point}, organ.topology).tip;
+bool Tissue::is_on_wrong_side(const std::vector<ShaftAxis>& places) {
+  const auto is_wrong = [](const OrganTick& organ, Side side) {
+    return (organ.keep == Side::kOutside && side == Side::kInside) ||
+           (organ.keep == Side::kInside && side == Side::kOutside);
+  };
+  for (const OrganTick& organ : *organs_) {
+    for (const ShaftAxis& place : places) {
+      const AxisPlacement& found = placement(organ, place, organ.topology);
+      if (is_wrong(organ, found.tip) || is_wrong(organ, found.trocar)) return true;
+      if (!found.crossings.empty()) return true;
+    }
+  }
+  return false;
 }
 
 std::vector<ProxyCrossing> Tissue::cross(const ShaftAxis& axis) {

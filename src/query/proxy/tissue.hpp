@@ -52,11 +52,16 @@ class Tissue {
   void touch(const std::vector<ToolPose>& way, double growth, std::vector<TissueContact>& contacts,
              Organs organs = Organs::kRest);
 
-  /// Whether the axis of the shaft, or else `point`, is known to be on the side of an organ that
-  /// the proxy must not be on, or crosses the surface of an organ.
-  bool is_on_wrong_side(const ToolPose& pose, const Eigen::Vector3d& point);
-  /// The side of an organ on which a point is.
-  Side side(const OrganTick& organ, const Eigen::Vector3d& point);
+  /// The places of the tool whose sides count: the axis of the shaft, and a point of each part of
+  /// each link, as an axis without a length.
+  std::vector<ShaftAxis> places_of(const ToolPose& pose) const;
+  /// Whether one of these places is known to be on the side of an organ that the proxy must not be
+  /// on, or crosses the surface of an organ.
+  bool is_on_wrong_side(const std::vector<ShaftAxis>& places);
+  /// The side of an organ on which a place begins.
+  Side side(const OrganTick& organ, const ShaftAxis& place) {
+    return placement(organ, place, organ.topology).trocar;
+  }
 
   /// Where an axis crosses the organs' surfaces, sorted from its trocar to its tip. The crossings
   /// have no loads.
