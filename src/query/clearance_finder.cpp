@@ -82,18 +82,15 @@ std::optional<Approach> ClearanceFinder::nearest(const Step& step, double distan
   return found.empty() ? std::nullopt : std::optional<Approach>(found.front());
 }
 
-NearestAtEnd ClearanceFinder::find_near(const Step& step, const CollisionRequest& request,
-                                        CollisionResult& result) {
-  std::size_t parts = 0;
-  for_each_part(step.at_end(), [&](const ToolPart&, const LegSpan&) { ++parts; });
-  return find_near(step, request, result,
-                   WorkBudget::for_near(request.max_near, parts * step.leg_count()));
-}
-
 /// Searches one face more than asked for, which tells near_more.
 NearestAtEnd ClearanceFinder::find_near(const Step& step, const CollisionRequest& request,
-                                        CollisionResult& result, const WorkBudget& budget) {
-  budget_ = budget;
+                                        CollisionResult& result, std::optional<WorkBudget> budget) {
+  if (!budget) {
+    std::size_t parts = 0;
+    for_each_part(step.at_end(), [&](const ToolPart&, const LegSpan&) { ++parts; });
+    budget = WorkBudget::for_near(request.max_near, parts * step.leg_count());
+  }
+  budget_ = *budget;
   unmeasured_ = 0;
   nearest_.start(step.organ().face_count(), request.max_near + 1, request.margin);
   for (const FaceContact& contact : result.contacts) nearest_.exclude(contact.face);

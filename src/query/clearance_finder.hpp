@@ -32,10 +32,8 @@ class ClearanceFinder {
   /// Sets the fields of `result` about near faces: faces within the margin that the tool does not
   /// touch during the step. `result` must hold the contacts of the step already. The end of a step
   /// without motion and contacts is then known.
-  NearestAtEnd find_near(const Step& step, const CollisionRequest& request,
-                         CollisionResult& result);
   NearestAtEnd find_near(const Step& step, const CollisionRequest& request, CollisionResult& result,
-                         const WorkBudget& budget);
+                         std::optional<WorkBudget> budget = {});
 
  private:
   class LegSearch;

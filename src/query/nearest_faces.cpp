@@ -5,10 +5,6 @@
 
 namespace organ_collision {
 
-bool NearestFaces::Rank::operator<(const Rank& other) const {
-  return std::tie(distance, face) < std::tie(other.distance, other.face);
-}
-
 void NearestFaces::start(std::size_t face_count, std::size_t most, double bound) {
   for (const std::uint32_t face : placed_) places_[face] = kNothing;
   placed_.clear();
@@ -36,14 +32,14 @@ void NearestFaces::add(const Approach& approach) {
   } else {
     if (found_.size() == most_) {
       const Rank last = farthest();
-      if (!(Rank{approach.distance, approach.face} < last)) return;
-      remove(last.face);
+      if (!(Rank(approach.distance, approach.face) < last)) return;
+      remove(last.second);
     }
     set_place(approach.face, static_cast<std::uint32_t>(found_.size()));
     found_.push_back(approach);
     push(approach);
   }
-  if (found_.size() == most_) bound_ = farthest().distance;
+  if (found_.size() == most_) bound_ = farthest().first;
 }
 
 const std::vector<Approach>& NearestFaces::sorted() {
@@ -54,15 +50,15 @@ const std::vector<Approach>& NearestFaces::sorted() {
 }
 
 void NearestFaces::push(const Approach& approach) {
-  ranks_.push_back({approach.distance, approach.face});
+  ranks_.emplace_back(approach.distance, approach.face);
   std::push_heap(ranks_.begin(), ranks_.end());
 }
 
 /// The rank of the farthest face in `found_`, which must not be empty.
 NearestFaces::Rank NearestFaces::farthest() {
   const auto is_void = [&](const Rank& rank) {
-    const std::uint32_t place = places_[rank.face];
-    return place >= kExcluded || found_[place].distance != rank.distance;
+    const std::uint32_t place = places_[rank.second];
+    return place >= kExcluded || found_[place].distance != rank.first;
   };
   while (is_void(ranks_.front())) {
     std::pop_heap(ranks_.begin(), ranks_.end());

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "moving_part.hpp"
@@ -44,13 +45,8 @@ class NearestFaces {
   static constexpr std::uint32_t kNothing = 0xffffffff;
   static constexpr std::uint32_t kExcluded = kNothing - 1;
 
-  /// The order of faces.
-  struct Rank {
-    double distance;  ///< [m]
-    std::uint32_t face;
-
-    bool operator<(const Rank& other) const;
-  };
+  /// The distance [m] of a face, and its number: the order of faces.
+  using Rank = std::pair<double, std::uint32_t>;
 
   void push(const Approach& approach);
   Rank farthest();

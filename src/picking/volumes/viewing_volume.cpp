@@ -19,9 +19,6 @@ const Eigen::RowVector4d kOne{0, 0, 0, 1};
 // component across the view is then only rounding.
 constexpr double kParallel = 1e-12;
 
-// The unit vector along a vector; zero for a zero vector.
-Eigen::Vector3d direction(const Eigen::Vector3d& vector) { return vector.stableNormalized(); }
-
 // [1] Corners of a polygon count as one corner if they differ by at most this share of their
 // largest coordinate: only rounding separates them.
 constexpr double kSameCorner = 1e-15;
@@ -59,11 +56,7 @@ Region clipped(const Region& polygon, const HalfSpace& half_space) {
 // The rows of the matrix of glOrtho, for a camera that looks along +z.
 ViewingVolume ViewingVolume::orthographic(const Camera& camera) {
   const auto& [origin, eye, axes, left, right, bottom, top, near, far] = camera;
-  ViewingVolume volume;
-  volume.origin_ = origin;
-  volume.near_ = near;
-  volume.far_ = far;
-  volume.perspective_ = false;
+  ViewingVolume volume(origin, near, far, false);
   volume.clip_.row(0) = (2 * coordinate(camera, 0) - (right + left) * kOne) / (right - left);
   volume.clip_.row(1) = (2 * coordinate(camera, 1) - (top + bottom) * kOne) / (top - bottom);
   volume.clip_.row(2) = (2 * coordinate(camera, 2) - (far + near) * kOne) / (far - near);
@@ -75,11 +68,7 @@ ViewingVolume ViewingVolume::orthographic(const Camera& camera) {
 // 1 at the near plane, and no entry becomes very large or small, however far away the eye is.
 ViewingVolume ViewingVolume::perspective(const Camera& camera) {
   const auto& [origin, eye, axes, left, right, bottom, top, near, far] = camera;
-  ViewingVolume volume;
-  volume.origin_ = origin;
-  volume.near_ = near;
-  volume.far_ = far;
-  volume.perspective_ = true;
+  ViewingVolume volume(origin, near, far, true);
   const Eigen::RowVector4d w = coordinate(camera, 2) / near;
   volume.clip_.row(0) = (2 * coordinate(camera, 0) - (right + left) * w) / (right - left);
   volume.clip_.row(1) = (2 * coordinate(camera, 1) - (top + bottom) * w) / (top - bottom);
@@ -116,7 +105,7 @@ double ViewingVolume::view_depth(double window_depth) const {
 }
 
 Eigen::Matrix3d camera_axes(const Eigen::Vector3d& view) {
-  const Eigen::Vector3d z = direction(view);
+  const Eigen::Vector3d z = view.stableNormalized();
   Eigen::Index least_aligned;
   z.cwiseAbs().minCoeff(&least_aligned);
   const Eigen::Vector3d x = Eigen::Vector3d::Unit(least_aligned).cross(z).normalized();
@@ -126,13 +115,13 @@ Eigen::Matrix3d camera_axes(const Eigen::Vector3d& view) {
 }
 
 Eigen::Matrix3d camera_axes(const Eigen::Vector3d& view, const Eigen::Vector3d& right) {
-  const Eigen::Vector3d z = direction(view);
-  Eigen::Vector3d x = direction(right);
+  const Eigen::Vector3d z = view.stableNormalized();
+  Eigen::Vector3d x = right.stableNormalized();
   x -= z * z.dot(x);
   if (x.norm() < kParallel) return camera_axes(view);
   // This is repeated because the first subtraction loses most digits of a nearly parallel vector.
-  x = direction(x);
-  x = direction(x - z * z.dot(x));
+  x = x.stableNormalized();
+  x = Eigen::Vector3d(x - z * z.dot(x)).stableNormalized();
   Eigen::Matrix3d axes;
   axes << x, z.cross(x), z;
   return axes;

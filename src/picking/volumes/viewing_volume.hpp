@@ -58,7 +58,9 @@ class ViewingVolume {
   void add_user_plane(const HalfSpace& half_space);
 
  private:
-  ViewingVolume() = default;
+  ViewingVolume(const Eigen::Vector3d& origin, double near, double far, bool perspective)
+      : origin_(origin), near_(near), far_(far), perspective_(perspective) {}
+
   Eigen::Vector3d origin_;
   Eigen::Matrix4d clip_;
   std::array<Eigen::Vector4d, kMaxUserPlanes> user_planes_;
