@@ -34,7 +34,7 @@ void open(rosbag::Bag& bag, const std::string& file) {
 }
 
 RecordedMessages::RecordedMessages(const rosbag::Bag& bag, const IsWanted& is_wanted)
-    : View(bag, [&](const rosbag::ConnectionInfo* info) { return is_wanted(*info); }), bag_(bag) {
+    : View(bag, is_wanted), bag_(bag) {
   for (const rosbag::MessageRange* range : ranges_) {
     for (auto entry = range->begin; entry != range->end; ++entry) {
       places_.push_back({*entry, range->connection_info});

@@ -7,6 +7,7 @@
 #include <rosbag/message_instance.h>
 #include <rosbag/view.h>
 
+#include <boost/function.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -42,7 +43,7 @@ void open(rosbag::Bag& bag, const std::string& file);
 /// back would mix the times before and after the jump.
 class RecordedMessages : private rosbag::View {
  public:
-  using IsWanted = std::function<bool(const rosbag::ConnectionInfo&)>;
+  using IsWanted = boost::function<bool(const rosbag::ConnectionInfo*)>;
   using Take = std::function<void(const rosbag::MessageInstance&)>;
 
   /// The messages of the connections for which `is_wanted` returns true. `bag` must outlive this.
