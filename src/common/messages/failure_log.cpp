@@ -15,8 +15,7 @@ namespace {
 
 constexpr std::chrono::seconds kLogPeriod(1);
 
-/// Reads the names of the statuses from the text of ContactArray.msg. They stand there in the order
-/// of their numbers, above the modes.
+/// The names stand in the text of ContactArray.msg in the order of their numbers, above the modes.
 std::vector<std::string> read_status_names() {
   const std::string type = "uint8 ", modes = "# Modes";
   std::istringstream message(ros::message_traits::definition<ContactArray>());

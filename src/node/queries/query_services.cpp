@@ -182,7 +182,9 @@ void QueryServices::answer_batch(const Batch& batch, QueryCollisionBatch::Respon
   answer_motions(motions, batch.stop_at_first_contact != 0, answer_motion, response);
 }
 
-/// Adds the answers to the motions, which several threads find, to the response.
+/// Adds the answers to the motions, which several threads find, to the response. `answer_motion`
+/// returns those to one motion: one for each organ.
+template <typename AnswerMotion>
 void QueryServices::answer_motions(std::size_t motions, bool stops_at_contact,
                                    const AnswerMotion& answer_motion,
                                    QueryCollisionBatch::Response& response) {

@@ -45,15 +45,12 @@ class QueryServices {
   QueryCollisionBatch::Response query_batch(const Batch& batch);
 
  private:
-  /// The answers to a motion, one for each organ.
-  using AnswerMotion =
-      std::function<std::vector<ContactArray>(std::size_t motion, ContactQuery& query)>;
-
   void start_batches();
 
   // These throw Rejection and other exceptions.
   ContactArray answer_one(const QueryCollision::Request& request, QueryQuestion& question);
   void answer_batch(const Batch& batch, QueryCollisionBatch::Response& response);
+  template <typename AnswerMotion>
   void answer_motions(std::size_t motions, bool stops_at_contact, const AnswerMotion& answer_motion,
                       QueryCollisionBatch::Response& response);
 

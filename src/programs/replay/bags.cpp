@@ -33,9 +33,8 @@ void open(rosbag::Bag& bag, const std::string& file) {
   }
 }
 
-RecordedMessages::RecordedMessages(
-    const rosbag::Bag& bag, const std::function<bool(const rosbag::ConnectionInfo&)>& is_wanted)
-    : View(bag, [&](const rosbag::ConnectionInfo* info) { return is_wanted(*info); }), bag_(bag) {
+RecordedMessages::RecordedMessages(const rosbag::Bag& bag, const IsWanted& is_wanted)
+    : View(bag, is_wanted), bag_(bag) {
   for (const rosbag::MessageRange* range : ranges_) {
     for (auto entry = range->begin; entry != range->end; ++entry) {
       places_.push_back({*entry, range->connection_info});
@@ -48,8 +47,7 @@ RecordedMessages::RecordedMessages(
   });
 }
 
-void RecordedMessages::for_each(
-    const std::function<void(const rosbag::MessageInstance&)>& take) try {
+void RecordedMessages::for_each(const Take& take) try {
   for (const Place& place : places_) {
     const std::unique_ptr<rosbag::MessageInstance> message(
         newMessageInstance(place.connection, place.entry, bag_));
@@ -66,6 +64,18 @@ void RecordedMessages::for_each(
 }
 
 std::string incomplete(const std::string& file) { return file + ".incomplete"; }
+
+/// Calls `write`. Throws std::runtime_error, with the reason of the system, if it throws.
+template <typename Write>
+void AnswerBag::attempt(const Write& write) const {
+  errno = 0;
+  try {
+    write();
+  } catch (const rosbag::BagException& error) {
+    throw std::runtime_error(
+        file_ + ": cannot be written: " + (errno == 0 ? error.what() : std::strerror(errno)));
+  }
+}
 
 AnswerBag::AnswerBag(const std::string& file, std::string topic)
     : file_(file),
@@ -123,16 +133,6 @@ std::string AnswerBag::summary() const {
         (by_status.empty() ? ": " : ", ") + std::to_string(count) + " " + reason_of(status);
   }
   return std::to_string(count()) + " answers on " + topic_ + by_status;
-}
-
-void AnswerBag::attempt(const std::function<void()>& write) const {
-  errno = 0;
-  try {
-    write();
-  } catch (const rosbag::BagException& error) {
-    throw std::runtime_error(
-        file_ + ": cannot be written: " + (errno == 0 ? error.what() : std::strerror(errno)));
-  }
 }
 
 }  // namespace organ_collision

@@ -7,6 +7,7 @@
 #include <rosbag/message_instance.h>
 #include <rosbag/view.h>
 
+#include <boost/function.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -42,13 +43,15 @@ void open(rosbag::Bag& bag, const std::string& file);
 /// back would mix the times before and after the jump.
 class RecordedMessages : private rosbag::View {
  public:
+  using IsWanted = boost::function<bool(const rosbag::ConnectionInfo*)>;
+  using Take = std::function<void(const rosbag::MessageInstance&)>;
+
   /// The messages of the connections for which `is_wanted` returns true. `bag` must outlive this.
-  RecordedMessages(const rosbag::Bag& bag,
-                   const std::function<bool(const rosbag::ConnectionInfo&)>& is_wanted);
+  RecordedMessages(const rosbag::Bag& bag, const IsWanted& is_wanted);
 
   std::size_t size() const { return places_.size(); }
   /// Calls `take` for each message. Throws InputError if the bag cannot be read.
-  void for_each(const std::function<void(const rosbag::MessageInstance&)>& take);
+  void for_each(const Take& take);
 
  private:
   struct Place {
@@ -85,7 +88,8 @@ class AnswerBag {
 
  private:
   void abandon();
-  void attempt(const std::function<void()>& write) const;
+  template <typename Write>
+  void attempt(const Write& write) const;
 
   std::string file_;
   std::string topic_;

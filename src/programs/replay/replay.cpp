@@ -59,17 +59,15 @@ Replay::Replay(const NodeParameters& parameters, const std::vector<Tool>& tools,
   handle<rosgraph_msgs::Clock>("/clock", [](const auto&, const auto&) {});
 }
 
-template <typename Message>
-void Replay::handle(
-    const std::string& topic,
-    std::function<void(const boost::shared_ptr<const Message>&, const rosbag::MessageInstance&)>
-        handler) {
+/// Lets `handler` take the messages of a topic: each, and the entry of the bag that it is from.
+template <typename Message, typename Handle>
+void Replay::handle(const std::string& topic, Handle handler) {
   namespace traits = ros::message_traits;
   const auto known =
       topics_.emplace(topic, Topic{traits::datatype<Message>(), traits::md5sum<Message>()}).first;
   known->second.handlers.push_back(
       [handler = std::move(handler)](const rosbag::MessageInstance& instance) {
-        handler(held_message<Message>(instance), instance);
+        handler(boost::shared_ptr<const Message>(held_message<Message>(instance)), instance);
       });
 }
 

@@ -44,11 +44,8 @@ class Replay {
   }
 
  private:
-  template <typename Message>
-  void handle(
-      const std::string& topic,
-      std::function<void(const boost::shared_ptr<const Message>&, const rosbag::MessageInstance&)>
-          handler);
+  template <typename Message, typename Handle>
+  void handle(const std::string& topic, Handle handler);
   void handle_poses(const std::vector<ToolParameters>& tools, const std::string& node);
   void go_to(ros::Time time);
   void evaluate_before(ros::Time time);

@@ -218,9 +218,9 @@ void replay(const ReplayOptions& options) {
               << " are of another version; they are made anew, in today's type" << std::endl;
   }
 
-  RecordedMessages messages(bag, [&](const rosbag::ConnectionInfo& connection) {
-    const bool is_copied = options.with_input && connection.topic != contacts;
-    return is_copied || replay.topics().count(connection.topic) > 0;
+  RecordedMessages messages(bag, [&](const rosbag::ConnectionInfo* connection) {
+    const bool is_copied = options.with_input && connection->topic != contacts;
+    return is_copied || replay.topics().count(connection->topic) > 0;
   });
   Progress progress("replay", "messages", messages.size());
   std::size_t done = 0, transforms = 0;
@@ -246,7 +246,8 @@ std::atomic<pid_t> worker{0};  ///< the process that replays
 /// Replays in a child process, because the library that reads bags crashes on some damaged ones.
 /// Only the parent returns: the exit code. Signals of the user reach the child, which then ends in
 /// order. Throws std::runtime_error if the child did not.
-int replay_in_child(const ReplayOptions& options, const std::function<int()>& work) {
+template <typename Work>
+int replay_in_child(const ReplayOptions& options, const Work& work) {
   sigset_t of_user, former;
   sigemptyset(&of_user);
   for (const int signal : {SIGINT, SIGTERM}) sigaddset(&of_user, signal);
