@@ -128,8 +128,7 @@ ContactArray QueryServices::answer_one(const QueryCollision::Request& request,
                           gives_links ? &request.link_motion : nullptr},
                          question);
   ContactArray answer = question.unanswered();
-  const double query_sec = query_.evaluate(collision, answer);
-  set_incomplete(answer, question.sampled.unknown);
+  const double query_sec = query_.evaluate(collision, answer, question.sampled.unknown);
   if (answer.status == ContactArray::OK) counters_.service_times.add(query_sec);
   return answer;
 }

@@ -56,12 +56,6 @@ void set_failure(ContactArray& answer, std::uint8_t status, const std::string& m
   answer.message = plain_text(message, kLongestMessage);
 }
 
-void set_incomplete(ContactArray& answer, const std::string& unknown) {
-  if (unknown.empty() || answer.status != ContactArray::OK) return;
-  answer.path_incomplete = true;
-  answer.message = plain_text(unknown, kLongestMessage);
-}
-
 void set_memory(ContactArray& answer, const ContactArray* last) {
   if (answer.status != ContactArray::OK) return;
   static const std::vector<Contact> kNone;
@@ -174,7 +168,8 @@ ContactQuery::ContactQuery(const PickerSettings& picker) : query_(picker) {
   }
 }
 
-double ContactQuery::evaluate(const CollisionRequest& request, ContactArray& answer) {
+double ContactQuery::evaluate(const CollisionRequest& request, ContactArray& answer,
+                              const std::string& unknown) {
   const auto start = std::chrono::steady_clock::now();
   try {
     query_.evaluate(request, result_);
@@ -188,6 +183,8 @@ double ContactQuery::evaluate(const CollisionRequest& request, ContactArray& ans
   const std::chrono::duration<double> query_time = std::chrono::steady_clock::now() - start;
 
   answer.status = ContactArray::OK;
+  answer.path_incomplete = !unknown.empty();
+  answer.message = plain_text(unknown, kLongestMessage);
   answer.unresolved = static_cast<std::uint32_t>(result_.unresolved);
   for (const FaceContact& at : result_.contacts) answer.contacts.push_back(to_message(at));
   for (const Region& region : result_.regions) answer.regions.push_back(to_message(region));

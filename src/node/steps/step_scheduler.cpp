@@ -318,10 +318,9 @@ void StepScheduler::answer(ToolStep& step, ContactQuery& query) const {
   }
   CollisionRequest request = question.request(std::move(sampled.path));
   step.answer = boost::make_shared<ContactArray>(question.unanswered());
-  step.query_sec = query.evaluate(request, *step.answer);
+  step.query_sec = query.evaluate(request, *step.answer, sampled.unknown);
   step.picked = query.picked();
   sampled.path = std::move(request.path);
-  set_incomplete(*step.answer, sampled.unknown);
   set_memory(*step.answer, step.last_answer.get());
 }
 
