@@ -150,16 +150,15 @@ void StepScheduler::plan_latest(const DeformableOrgan& organ, std::size_t tool, 
   OrganToolPair& pair = history_[{organ.name(), tool}];
   if (!pair.current.mesh) return;  // Its first shape still waits for a transform.
   forget_if_disproved(organ, tool, pair);
-  ToolStep step = begin_step(organ, tool, pair, false);
   const ros::Time now = ros::Time::now();
   const std::string stale =
       stale_fault(organ.name(), pair.current, now, parameters_.mesh_timeout_sec);
   if (tools_[tool].fault.empty() && !stale.empty()) {
-    return plan_failure(std::move(step), now, ContactArray::STALE_MESH, stale);
+    return plan_failure(begin_step(organ, tool, pair, false), now, ContactArray::STALE_MESH, stale);
   }
   auto end = poses_.pose(tools_[tool], organ.frame(), ros::Time(0));
   if (only_new && end.found && is_answered(pair, end.found->stamp)) return;
-  plan_step(std::move(step), std::move(end), now);
+  plan_step(begin_step(organ, tool, pair, false), std::move(end), now);
 }
 
 /// Plans steps for the pairs whose last step was so long ago that TF would soon forget how the tool
@@ -274,7 +273,7 @@ ToolStep StepScheduler::begin_step(const DeformableOrgan& organ, std::size_t too
 void StepScheduler::plan_step(ToolStep step, Lookup<ToolPose> end, ros::Time failure) {
   OrganToolPair& pair = *step.pair;
   const std::optional<LastStep>& last = pair.last;
-  const std::string& fault = tools_[step.tool].fault;
+  const std::string& fault = step.question.tool->fault;
   if (!fault.empty()) {
     return plan_failure(std::move(step), failure, ContactArray::INVALID_TOOL, fault);
   }
