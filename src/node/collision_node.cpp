@@ -140,12 +140,7 @@ void CollisionNode::end(const std::exception* fault) {
 /// Publishes the answer of a step, counts it, and shows it.
 void CollisionNode::publish(const ToolStep& step) {
   const ContactArray& answer = *step.answer;
-  if (step.is_starting) {
-    ++counters_.starting;
-    ROS_DEBUG("%s", answer.message.c_str());
-  } else {
-    count_failure(counters_.failed, answer.status, answer.message);
-  }
+  if (!step.is_starting) count_failure(counters_.failed, answer.status, answer.message);
   if (answer.path_incomplete) {
     counters_.incomplete.add("path not wholly known",
                              "tool '" + answer.tool + "': " + answer.message,
@@ -155,7 +150,6 @@ void CollisionNode::publish(const ToolStep& step) {
   contacts_.publish(step.answer);
   touches_.follow(answer, core_.loop().now());
   ++counters_.published;
-  counters_.contacts.count();
   markers_.add(step);
   if (answer.status == ContactArray::OK && step.moves) watch_ends(step);
 }

@@ -40,25 +40,6 @@ bool is_known(const TransformBuffer& buffer, const TransformStamped& transform) 
          (known.found->value.matrix() - to_eigen(transform.transform).matrix()).isZero(kSame);
 }
 
-/// Why a pose is illegal; empty if it is legal.
-std::string fault(const PoseStamped& pose, double max_ahead_sec) {
-  const auto& p = pose.pose.position;
-  const auto& q = pose.pose.orientation;
-  const std::string ahead = ahead_fault(pose.header.stamp, ros::Time::now(), max_ahead_sec);
-  if (tf_frame(pose.header.frame_id).empty()) return "has no frame: header.frame_id is empty";
-  if (const std::string wrong = name_fault(pose.header.frame_id); !wrong.empty()) {
-    return "is in an illegal frame: " + wrong;
-  }
-  if (!is_in_range(to_eigen(p))) {
-    return concatenate("is at (", p.x, ", ", p.y, ", ", p.z, "); must be finite and within ",
-                       tolerance::kFarthest, " m");
-  }
-  if (!ahead.empty()) return "is refused: " + ahead;
-  if (is_unit(q)) return "";
-  return concatenate("has the orientation (", q.x, ", ", q.y, ", ", q.z, ", ", q.w,
-                     "); must be a quaternion of length 1");
-}
-
 TransformStamped to_transform(const PoseStamped& pose, const std::string& frame) {
   TransformStamped transform;
   transform.header.stamp = pose.header.stamp;
@@ -222,8 +203,23 @@ void MotionTopics::forget_stamps() {
 
 /// Why `pose` cannot be the pose of `frame`; empty if it can.
 std::string MotionTopics::fault_of(const PoseStamped& pose, const std::string& frame) const {
-  return tf_frame(pose.header.frame_id) == frame && !frame.empty() ? "is in its own frame"
-                                                                   : fault(pose, max_ahead_sec_);
+  const auto& p = pose.pose.position;
+  const auto& q = pose.pose.orientation;
+  const std::string parent = tf_frame(pose.header.frame_id);
+  if (parent.empty()) return "has no frame: header.frame_id is empty";
+  if (parent == frame) return "is in its own frame";
+  if (const std::string wrong = name_fault(pose.header.frame_id); !wrong.empty()) {
+    return "is in an illegal frame: " + wrong;
+  }
+  if (!is_in_range(to_eigen(p))) {
+    return concatenate("is at (", p.x, ", ", p.y, ", ", p.z, "); must be finite and within ",
+                       tolerance::kFarthest, " m");
+  }
+  const std::string ahead = ahead_fault(pose.header.stamp, ros::Time::now(), max_ahead_sec_);
+  if (!ahead.empty()) return "is refused: " + ahead;
+  if (is_unit(q)) return "";
+  return concatenate("has the orientation (", q.x, ", ", q.y, ", ", q.z, ", ", q.w,
+                     "); must be a quaternion of length 1");
 }
 
 /// Returns false, and counts the pose as rejected, if `pose` cannot be the pose of `frame`.

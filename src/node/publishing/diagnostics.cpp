@@ -120,7 +120,6 @@ void show_queries(const std::vector<std::string>& misspelt, const CollisionPipel
                   NodeCounters& counters, Status& status) {
   status.summary(DiagnosticStatus::OK, "answering");
   status.add("GL version", pipeline.workers.gl_version());
-  status.add("contacts rate [1/s]", counters.contacts.take(std::chrono::steady_clock::now()));
   show_times("queries", "query time", counters.query_times, status);
   const StepCounts steps = pipeline.steps.counts();
   status.add("faces clipped by OpenGL", steps.picked.drawn);
@@ -136,7 +135,6 @@ void show_queries(const std::vector<std::string>& misspelt, const CollisionPipel
   status.add("shapes forgotten before their step", steps.forgotten);
   status.add("shapes waiting", steps.waiting);
   status.add("answers published", counters.published);
-  status.add("steps while TF was starting", counters.starting);
   show_times("service queries", "service query time", counters.service_times, status);
   status.add("batches", counters.batches.load());
   status.add("motions of batches", counters.motions.load());

@@ -61,10 +61,8 @@ class DurationStatistics {
 
 /// What the node counts for /diagnostics.
 struct NodeCounters {
-  EventRate meshes{std::chrono::steady_clock::now()};    ///< accepted shapes of organs
-  EventRate contacts{std::chrono::steady_clock::now()};  ///< answers to steps
+  EventRate meshes{std::chrono::steady_clock::now()};  ///< accepted shapes of organs
   std::uint64_t published = 0;       ///< answers on `contacts`, also those about refused messages
-  std::uint64_t starting = 0;        ///< steps that failed because TF may still be starting
   DurationStatistics query_times;    ///< how long the queries of answered steps took
   DurationStatistics service_times;  ///< how long single service queries took, without waiting
   std::atomic<std::uint64_t> batches{0};  ///< batches that were answered to the end

@@ -142,21 +142,6 @@ std::size_t index_of(const NodeState& node, const std::string& name) {
 
 }  // namespace
 
-QueryCollision::Request common_request(const QueryCollisionBatch::Request& batch) {
-  QueryCollision::Request request;
-  request.header = batch.header;
-  request.organ = batch.organ;
-  request.tool = batch.tool;
-  request.mode = batch.mode;
-  request.organ_rests = batch.organ_rests;
-  request.regions = batch.regions;
-  request.margin = batch.margin;
-  request.clearance = batch.clearance;
-  request.max_near = batch.max_near;
-  request.placement = batch.placement;
-  return request;
-}
-
 std::vector<std::string> asked_organs(const NodeState& node, const std::string& organ) {
   if (!organ.empty()) return {organ};
   std::vector<std::string> names;
@@ -187,20 +172,6 @@ void check_options(const QueryOptions& asked) {
            ", which has no clearance, near faces or placement; for these, legal are 0 (STATIC) and "
            "1 (SWEPT)");
   }
-}
-
-QueryQuestion::QueryQuestion(const QueryCollision::Request& request)
-    : organ_rests(request.organ_rests != 0), stamp(request.header.stamp) {
-  organ = request.organ;
-  tool_name = request.tool;
-  frame = request.header.frame_id;
-  start = end = stamp.isZero() ? ros::Time::now() : stamp;
-  asked = {static_cast<QueryMode>(request.mode),
-           request.regions != 0,
-           request.margin,
-           request.max_near,
-           request.clearance != 0,
-           request.placement != 0};
 }
 
 void QueryQuestion::complete(const NodeState& node, bool in_tf) {

@@ -34,8 +34,21 @@ struct NodeState {
 
 /// The question of a query.
 struct QueryQuestion : Question {
-  /// Takes what the request says, without a check.
-  explicit QueryQuestion(const QueryCollision::Request& request);
+  /// Takes what the request says, without a check. A batch asks the same of each of its motions.
+  template <typename Request>
+  explicit QueryQuestion(const Request& request)
+      : organ_rests(request.organ_rests != 0), stamp(request.header.stamp) {
+    organ = request.organ;
+    tool_name = request.tool;
+    frame = request.header.frame_id;
+    start = end = stamp.isZero() ? ros::Time::now() : stamp;
+    asked.mode = static_cast<QueryMode>(request.mode);
+    asked.regions = request.regions != 0;
+    asked.margin = request.margin;
+    asked.max_near = request.max_near;
+    asked.clearance = request.clearance != 0;
+    asked.placement = request.placement != 0;
+  }
 
   /// Looks up the organ, the tool and, if `in_tf`, the tool's motion in TF. Call it in the node's
   /// thread, of a request whose names and options are checked. An empty name of an organ stands
@@ -51,9 +64,6 @@ struct QueryQuestion : Question {
  private:
   void find_motion(const NodeState& node, std::size_t tool_index);
 };
-
-/// What a batch asks of each of its motions, as a single request without a motion.
-QueryCollision::Request common_request(const QueryCollisionBatch::Request& batch);
 
 /// Checks what is asked.
 void check_options(const QueryOptions& asked);

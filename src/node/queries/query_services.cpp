@@ -24,10 +24,10 @@ void set_failure(QueryCollisionBatch::Response& response, std::uint8_t status,
   response.message = plain_text(message, kLongestMessage);
 }
 
-void check_names(const QueryCollision::Request& request, bool in_tf) {
-  check_name("tool", request.tool);
-  check_name("organ", request.organ);
-  if (!in_tf) check_name("header.frame_id", tf_frame(request.header.frame_id));
+void check_names(const QueryQuestion& question, bool in_tf) {
+  check_name("tool", question.tool_name);
+  check_name("organ", question.organ);
+  if (!in_tf) check_name("header.frame_id", tf_frame(question.frame));
 }
 
 /// Whether a single query gives this motion: an empty message gives none. In a batch, each motion
@@ -114,7 +114,7 @@ ContactArray QueryServices::answer_one(const QueryCollision::Request& request,
     refuse("link_motion is set and tool is empty; must be the name of the tool with these links");
   }
   const bool in_tf = is_of_tool && !gives_links;
-  check_names(request, in_tf);
+  check_names(question, in_tf);
   if (in_tf && is_given(request.motion)) {
     refuse("motion is set, and tool '", request.tool,
            "' moves as in TF; leave motion empty, or ask by query_batch");
@@ -128,8 +128,7 @@ ContactArray QueryServices::answer_one(const QueryCollision::Request& request,
                           gives_links ? &request.link_motion : nullptr},
                          question);
   ContactArray answer = question.unanswered();
-  const double query_sec = query_.evaluate(collision, answer);
-  set_incomplete(answer, question.sampled.unknown);
+  const double query_sec = query_.evaluate(collision, answer, question.sampled.unknown);
   if (answer.status == ContactArray::OK) counters_.service_times.add(query_sec);
   return answer;
 }
@@ -145,20 +144,20 @@ QueryCollisionBatch::Response QueryServices::query_batch(const Batch& batch) {
 }
 
 void QueryServices::answer_batch(const Batch& batch, QueryCollisionBatch::Response& response) {
-  QueryCollision::Request request = common_request(batch);
-  check_options(QueryQuestion(request).asked);
+  QueryQuestion question(batch);
+  check_options(question.asked);
   const std::size_t motions = std::max(batch.motions.size(), batch.link_motions.size());
   const auto most = static_cast<std::size_t>(node_.parameters.max_batch);
   if (motions > most) {
     refuse("the batch has ", motions, " motions; must be at most ", most,
            " (max_batch): ask in several batches");
   }
-  check_names(request, false);
+  check_names(question, false);
   std::vector<QueryQuestion> questions;
   in_node_thread_([&] {
     for (const std::string& organ : asked_organs(node_, batch.organ)) {
-      request.organ = organ;
-      questions.emplace_back(request).complete(node_, false);
+      question.organ = organ;
+      questions.emplace_back(question).complete(node_, false);
     }
   });
   check_lists(batch, questions.front().tool.get());

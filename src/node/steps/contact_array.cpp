@@ -54,24 +54,6 @@ std::vector<std::uint32_t> touched_faces(const std::vector<Contact>& contacts) {
 void set_failure(ContactArray& answer, std::uint8_t status, const std::string& message) {
   answer.status = status;
   answer.message = plain_text(message, kLongestMessage);
-  answer.contacts.clear();
-  answer.released.clear();
-  answer.regions.clear();
-  answer.unresolved = 0;
-  answer.near.clear();
-  answer.near_more = false;
-  answer.near_unresolved = 0;
-  answer.clearance = {};
-  answer.placement = {};
-  answer.view_min.clear();
-  answer.view_max.clear();
-  answer.path_incomplete = false;
-}
-
-void set_incomplete(ContactArray& answer, const std::string& unknown) {
-  if (unknown.empty() || answer.status != ContactArray::OK) return;
-  answer.path_incomplete = true;
-  answer.message = plain_text(unknown, kLongestMessage);
 }
 
 void set_memory(ContactArray& answer, const ContactArray* last) {
@@ -186,7 +168,8 @@ ContactQuery::ContactQuery(const PickerSettings& picker) : query_(picker) {
   }
 }
 
-double ContactQuery::evaluate(const CollisionRequest& request, ContactArray& answer) {
+double ContactQuery::evaluate(const CollisionRequest& request, ContactArray& answer,
+                              const std::string& unknown) {
   const auto start = std::chrono::steady_clock::now();
   try {
     query_.evaluate(request, result_);
@@ -200,6 +183,8 @@ double ContactQuery::evaluate(const CollisionRequest& request, ContactArray& ans
   const std::chrono::duration<double> query_time = std::chrono::steady_clock::now() - start;
 
   answer.status = ContactArray::OK;
+  answer.path_incomplete = !unknown.empty();
+  answer.message = plain_text(unknown, kLongestMessage);
   answer.unresolved = static_cast<std::uint32_t>(result_.unresolved);
   for (const FaceContact& at : result_.contacts) answer.contacts.push_back(to_message(at));
   for (const Region& region : result_.regions) answer.regions.push_back(to_message(region));

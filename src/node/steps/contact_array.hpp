@@ -12,13 +12,9 @@
 
 namespace organ_collision {
 
-/// Sets the status and the message, and drops all results. The message becomes plain text of at
-/// most kLongestMessage bytes.
+/// Sets the status and the message of an answer that has no results. The message becomes plain text
+/// of at most kLongestMessage bytes.
 void set_failure(ContactArray& answer, std::uint8_t status, const std::string& message);
-
-/// Sets `path_incomplete` and the message of an answer whose status is OK. `unknown`: what is not
-/// known of the tool's path. If it is empty, nothing changes.
-void set_incomplete(ContactArray& answer, const std::string& unknown);
 
 /// Sets what an answer whose status is OK remembers of the answer before: `since` of its contacts,
 /// and `released`. `last`: the last answer of this tool about this organ that was OK. Null: there
@@ -52,8 +48,11 @@ class ContactQuery {
   explicit ContactQuery(const PickerSettings& picker);
 
   /// Sets the status of `answer`, and its results from `contacts` to `placement`, or its message if
-  /// the query fails. Returns how long the query took [s], or 0 if it failed.
-  double evaluate(const CollisionRequest& request, ContactArray& answer);
+  /// the query fails. `unknown`: what is not known of the tool's path, which the answer tells
+  /// (`path_incomplete`); empty: it is known. Returns how long the query took [s], or 0 if it
+  /// failed.
+  double evaluate(const CollisionRequest& request, ContactArray& answer,
+                  const std::string& unknown = "");
 
   /// The faces that the last query looked at one by one; none if it failed.
   const PickCounts& picked() const { return result_.picked; }

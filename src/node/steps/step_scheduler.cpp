@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <boost/make_shared.hpp>
+#include <cmath>
 
 #include "common/messages/text.hpp"
 #include "geometry/concatenate.hpp"
@@ -30,7 +31,55 @@ void set_stamps(ToolStep& step, ros::Time end) {
   step.question.end = end;
 }
 
+double seconds(LoadWatch::Time from, LoadWatch::Time to) {
+  return std::chrono::duration<double>(to - from).count();
+}
+
+/// The tool and the organ of a step, and what makes its query long.
+std::string description(const ToolStep& step) {
+  const Question& question = step.question;
+  const QueryOptions& asked = question.asked;
+  const std::size_t legs = std::max<std::size_t>(question.sampled.path.size(), 2) - 1;
+  std::string text = concatenate("tool '", question.tool_name, "', organ '", question.organ, "' (",
+                                 question.shape.mesh->face_count(), " faces): ", legs, " legs");
+  const std::size_t links = question.tool->links.size();
+  if (links > 0) text += ", " + counted(links, "link");
+  if (asked.margin > 0.0) text += concatenate(", margin ", asked.margin);
+  if (asked.max_near > 0) text += concatenate(", max_near ", asked.max_near);
+  if (asked.placement) text += ", placement";
+  if (asked.regions) text += ", regions";
+  return text + concatenate("; ", step.answer->contacts.size(), " contacts");
+}
+
 }  // namespace
+
+void LoadWatch::add(const ToolStep& step) {
+  has_steps_ = true;
+  if (step.query_sec <= period_.slowest_sec) return;
+  period_.slowest_sec = step.query_sec;
+  period_.slowest = description(step);
+}
+
+void LoadWatch::add_round(Time begin, Time end, std::uint64_t merged) {
+  constexpr double kMost = 0.8;  // [1] a larger share of the time is most of it
+  if (!std::exchange(has_steps_, false)) return;
+  period_.busy_sec += seconds(begin, end);
+  period_.merged += merged - std::exchange(merged_, merged);
+  ++period_.rounds;
+  if (end - period_.begin < kPeriod) return;
+  const double share = period_.busy_sec / seconds(period_.begin, end);
+  is_behind_ = share > kMost && period_.merged >= period_.rounds;
+  if (is_behind_) {
+    report_ = concatenate("the node falls behind: steps take ", std::lround(100.0 * share),
+                          " % of the time, and ", period_.merged,
+                          " poses, ticks and shapes share a step with later ones; the slowest of ",
+                          period_.rounds, " rounds has a step of ", 1e3 * period_.slowest_sec,
+                          " ms: ", period_.slowest);
+  }
+  period_ = Period{end};
+}
+
+std::optional<std::string> LoadWatch::take_report() { return std::exchange(report_, std::nullopt); }
 
 StepWorkers::StepWorkers(const NodeParameters& parameters)
     : QueryThreads(thread_count(parameters.threads), parameters.picker,
@@ -150,16 +199,15 @@ void StepScheduler::plan_latest(const DeformableOrgan& organ, std::size_t tool, 
   OrganToolPair& pair = history_[{organ.name(), tool}];
   if (!pair.current.mesh) return;  // Its first shape still waits for a transform.
   forget_if_disproved(organ, tool, pair);
-  ToolStep step = begin_step(organ, tool, pair, false);
   const ros::Time now = ros::Time::now();
   const std::string stale =
       stale_fault(organ.name(), pair.current, now, parameters_.mesh_timeout_sec);
   if (tools_[tool].fault.empty() && !stale.empty()) {
-    return plan_failure(std::move(step), now, ContactArray::STALE_MESH, stale);
+    return plan_failure(begin_step(organ, tool, pair, false), now, ContactArray::STALE_MESH, stale);
   }
   auto end = poses_.pose(tools_[tool], organ.frame(), ros::Time(0));
   if (only_new && end.found && is_answered(pair, end.found->stamp)) return;
-  plan_step(std::move(step), std::move(end), now);
+  plan_step(begin_step(organ, tool, pair, false), std::move(end), now);
 }
 
 /// Plans steps for the pairs whose last step was so long ago that TF would soon forget how the tool
@@ -274,7 +322,7 @@ ToolStep StepScheduler::begin_step(const DeformableOrgan& organ, std::size_t too
 void StepScheduler::plan_step(ToolStep step, Lookup<ToolPose> end, ros::Time failure) {
   OrganToolPair& pair = *step.pair;
   const std::optional<LastStep>& last = pair.last;
-  const std::string& fault = tools_[step.tool].fault;
+  const std::string& fault = step.question.tool->fault;
   if (!fault.empty()) {
     return plan_failure(std::move(step), failure, ContactArray::INVALID_TOOL, fault);
   }
@@ -318,10 +366,9 @@ void StepScheduler::answer(ToolStep& step, ContactQuery& query) const {
   }
   CollisionRequest request = question.request(std::move(sampled.path));
   step.answer = boost::make_shared<ContactArray>(question.unanswered());
-  step.query_sec = query.evaluate(request, *step.answer);
+  step.query_sec = query.evaluate(request, *step.answer, sampled.unknown);
   step.picked = query.picked();
   sampled.path = std::move(request.path);
-  set_incomplete(*step.answer, sampled.unknown);
   set_memory(*step.answer, step.last_answer.get());
 }
 

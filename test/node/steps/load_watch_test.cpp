@@ -1,5 +1,5 @@
-// load_watch.hpp, and what the scheduler says of a node that falls behind.
-#include "node/steps/load_watch.hpp"
+// LoadWatch, and what the scheduler says of a node that falls behind.
+#include "node/steps/step_scheduler.hpp"
 
 #include <gtest/gtest.h>
 
