@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -19,10 +20,13 @@ using Eigen::Vector3d;
 /// cube.
 constexpr std::size_t kMostCorners = 4000;
 
-/// Twice the area of a triangle; negative if its corners go round clockwise. It is exact if the
-/// coordinates are 32-bit floats of similar size.
-double area(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
-  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+/// Corners whose sine is smaller are on a straight line, as well as a file tells.
+constexpr double kStraight = 1e-6;
+
+/// The sine of the angle from a to b, counterclockwise. 0 if either is zero.
+double sine(const Vector2d& a, const Vector2d& b) {
+  const double lengths = a.norm() * b.norm();
+  return lengths > 0.0 ? (a.x() * b.y() - a.y() * b.x()) / lengths : 0.0;
 }
 
 /// A polygon, of which corners are cut off one after the other.
@@ -32,37 +36,47 @@ struct Ring {
 
   const Vector2d& point(std::size_t i) const { return points[left[i % left.size()]]; }
   std::size_t before(std::size_t i) const { return (i + left.size() - 1) % left.size(); }
-  double turn(std::size_t i) const { return area(point(before(i)), point(i), point(i + 1)); }
+  double turn(std::size_t i) const {
+    return sine(point(i) - point(before(i)), point(i + 1) - point(i));
+  }
 
   bool is_convex() const {
     for (std::size_t i = 0; i < left.size(); ++i) {
-      if (turn(i) < 0.0) return false;
+      if (turn(i) < -kStraight) return false;
     }
     return true;
   }
 
   /// Whether the triangle of a corner and its neighbours is within the polygon. Holes are polygons
   /// that meet themselves along a line, so other corners may be at the same places.
-  bool is_ear(std::size_t i) const {
-    const Vector2d &a = point(before(i)), &b = point(i), &c = point(i + 1);
-    if (!(area(a, b, c) > 0.0)) return false;
+  bool is_ear(std::size_t i, double straight) const {
+    if (!(turn(i) > straight)) return false;
+    const std::array<Vector2d, 3> corners = {point(before(i)), point(i), point(i + 1)};
     return std::none_of(left.begin(), left.end(), [&](std::size_t other) {
-      const Vector2d& p = points[other];
-      return area(a, b, p) >= 0.0 && area(b, c, p) >= 0.0 && area(c, a, p) >= 0.0 && p != a &&
-             p != b && p != c;
+      bool is_inside = true;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vector2d from = points[other] - corners[k];
+        is_inside = is_inside && !from.isZero(0.0) &&
+                    sine(corners[(k + 1) % 3] - corners[k], from) >= -straight;
+      }
+      return is_inside;
     });
   }
 
   /// The first ear from corner `start`. If there is none, the polygon meets itself, or has no area:
-  /// then a corner on a straight line, or else `start`.
+  /// then the straightest corner.
   std::size_t ear(std::size_t start) const {
-    for (const bool is_wanted : {true, false}) {
+    for (const double straight : {kStraight, 0.0}) {
       for (std::size_t k = 0; k < left.size(); ++k) {
         const std::size_t i = (start + k) % left.size();
-        if (is_wanted ? is_ear(i) : turn(i) == 0.0) return i;
+        if (is_ear(i, straight)) return i;
       }
     }
-    return start % left.size();
+    std::size_t straightest = 0;
+    for (std::size_t i = 1; i < left.size(); ++i) {
+      if (std::abs(turn(i)) < std::abs(turn(straightest))) straightest = i;
+    }
+    return straightest;
   }
 };
 
@@ -151,7 +165,7 @@ void MeshBuilder::cut(const std::uint32_t* corners, std::size_t count) {
 }
 
 /// The corners of a polygon, without the coordinate along which the polygon has the largest area.
-/// The other two are rounded to 32-bit floats, and are such that the polygon is counterclockwise.
+/// The other two are such that the polygon is counterclockwise.
 std::vector<Vector2d> MeshBuilder::seen_from_above(const std::uint32_t* corners,
                                                    std::size_t count) const {
   const auto place = [&](std::size_t i) {
@@ -167,8 +181,7 @@ std::vector<Vector2d> MeshBuilder::seen_from_above(const std::uint32_t* corners,
   if (normal[axis] < 0.0) std::swap(x, y);
   std::vector<Vector2d> points;
   for (std::size_t i = 0; i < count; ++i) {
-    const Vector3d corner = place(i);
-    points.emplace_back(static_cast<float>(corner[x]), static_cast<float>(corner[y]));
+    points.emplace_back(place(i)[x], place(i)[y]);
   }
   return points;
 }

@@ -105,7 +105,7 @@ reader.SetFileName("/dev/stdin")
 reader.Update()
 data = reader.GetOutputDataObject(0)
 if errors or not data or not data.IsA("vtkPointSet") or not data.GetPoints():
-    refuse("VTK cannot read it: " + (errors or ["it has no points, or is no polygonal mesh"])[-1])
+    refuse("VTK cannot read it: " + (errors or ["it has no points, or is no polygonal mesh"])[0].split("): ", 1)[-1])
 def cells(array):
     at, ids = (vtk_to_numpy(part) for part in (array.GetOffsetsArray(), array.GetConnectivityArray()))
     return [ids[begin:end] for begin, end in zip(at[:-1], at[1:])]
