@@ -10,14 +10,16 @@ import sys
 from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
 from organ_collision import contact_table, MeshFileError, Organ, read_mesh
 from organ_collision.msg import ContactArray
+import numpy as np
 import rospkg
 import rospy
 from std_msgs.msg import Header
 import tf2_ros
 
 options = argparse.ArgumentParser(description=__doc__)
-options.add_argument('file', nargs='?', help='the mesh: OBJ, STL, PLY, OFF, VTK, ...; without it, a kidney of 1280 faces')
+options.add_argument('file', nargs='?', help='the mesh: OBJ, STL, PLY, OFF, DAE, VTK, ...; without it, a kidney of 1280 faces')
 options.add_argument('--scale', type=float, default=1.0, help='metres for each unit of the file: 0.001 for millimetres')
+options.add_argument('--lps', action='store_true', help="the file's axes point left, posterior and superior, as in files that 3D Slicer saves")
 options.add_argument('--rest', action='store_true', help='sends only the organ, which rests, and no frames of the probe')
 options.add_argument('--frame', default='organ', help='the TF frame of the mesh; default: organ')
 options = options.parse_args(rospy.myargv()[1:])
@@ -26,6 +28,25 @@ KIDNEY = os.path.join(rospkg.RosPack().get_path('organ_collision'), 'examples', 
 
 def frame(name, stamp, point):
     return TransformStamped(Header(0, stamp, options.frame), name, Transform(Vector3(*point), Quaternion(0, 0, 0, 1)))
+
+
+def describe(vertices, faces):
+    """Prints what is most often wrong with a mesh."""
+    size = np.ptp(vertices[faces].reshape(-1, 3), axis=0)
+    _, places = np.unique(vertices, axis=0, return_inverse=True)  # Vertices at one place count as one.
+    corners = places.reshape(-1)[faces]
+    edges = np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]])
+    signs = np.where(edges[:, 0] < edges[:, 1], 1, -1)
+    _, edge_of = np.unique(np.sort(edges, axis=1), axis=0, return_inverse=True)
+    open_edges = np.count_nonzero(np.bincount(edge_of.reshape(-1), signs))  # Not as often there as back.
+    a, b, c = (vertices[faces[:, i]] - vertices.mean(axis=0) for i in range(3))
+    is_inward = np.einsum('ij,ij->', a, np.cross(b, c)) < 0  # Six times the volume.
+    print('%d vertices, %d faces, %.3g x %.3g x %.3g m, %d open edges, normals point %s' % (
+        len(vertices), len(faces), *size, open_edges, 'inward' if is_inward else 'outward'), flush=True)
+    if size.max() > 3:
+        print('warning: the mesh is %.3g m large. If the file is in millimetres, add --scale 0.001' % size.max(), flush=True)
+    if is_inward:
+        print('warning: the normals point inward, so inside and outside are swapped. Turn the faces round', flush=True)
 
 
 last_line = None
@@ -50,11 +71,12 @@ def show(answer):
 
 def main():
     global started
+    vertices, faces = read_mesh(options.file or KIDNEY, options.scale, options.lps)
+    describe(vertices, faces)
     rospy.init_node('own_mesh')
     started = rospy.Time.now()
     rospy.Subscriber('/organ_collision/contacts', ContactArray, show)
     frames = tf2_ros.TransformBroadcaster()
-    vertices, faces = read_mesh(options.file or KIDNEY, options.scale)
     organ = Organ('organ', vertices, faces, options.frame)
     top = vertices[vertices[:, 2].argmax()]
 

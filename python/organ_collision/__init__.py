@@ -1,7 +1,7 @@
 """Organs, queries and contacts of the collision node as numpy arrays. doc/python.md shows how to use them.
 
 The messages and services are in organ_collision.msg and organ_collision.srv. Programs that need only these do not load
-rospy and meshio: each name below is loaded when it is first used.
+rospy: each name below is loaded when it is first used.
 """
 
 import importlib

@@ -1,8 +1,9 @@
-// Files and buffers: the OBJ files and the CSV files with motions of query_offline, the yaml files
+// Files and buffers: mesh files and the CSV files with motions of query_offline, the yaml files
 // with parameters of replay and of all nodes, and OpenGL's feedback buffer.
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,8 +14,8 @@
 #include "fuzz_input.hpp"
 #include "haptics/haptic_proxy_parameters.hpp"
 #include "picking/gl/drawing.hpp"
+#include "programs/mesh_reader/mesh_reader.hpp"
 #include "programs/query_offline/motions.hpp"
-#include "programs/query_offline/shapes.hpp"
 #include "programs/replay/yaml_parameters.hpp"
 
 using namespace organ_collision;
@@ -86,17 +87,18 @@ const FuzzTarget motion_file_target("motion_file", [](const std::uint8_t* data, 
   }
 });
 
-const FuzzTarget obj_file_target("obj_file", [](const std::uint8_t* data, std::size_t size) {
-  static const TriangleMesh other({0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 2});
-  const std::string path = memory_file(FuzzInput(data, size).rest());
+/// Those formats of mesh files that this package reads itself.
+const FuzzTarget mesh_file_target("mesh_file", [](const std::uint8_t* data, std::size_t size) {
+  FuzzInput input(data, size);
+  const std::string file = std::array{"a.obj", "a.stl", "a.ply", "a.off"}[input.byte() % 4];
   try {
-    const MeshFile obj = read_obj(path);
-    demand(obj.face_lines.size() * 3 == obj.triangles.size(), "each face has its line");
-    const TriangleMesh mesh = mesh_of(obj);
-    check_same_faces(obj, mesh, "itself");
-    check_same_faces(obj, other, "another file");
+    const MeshFile mesh = parse_mesh(file, input.rest());
+    demand(mesh.triangles.size() % 3 == 0 && !mesh.triangles.empty(), "a mesh has faces");
+    for (const std::uint32_t vertex : mesh.triangles) {
+      demand(3 * std::size_t{vertex} < mesh.vertices.size(), "a face's vertices exist");
+    }
   } catch (const InputError& error) {
-    demand(std::string(error.what()).find(':') != std::string::npos, "an error names the file");
+    demand(std::string(error.what()).find(file + ":") == 0, "an error names the file");
   }
 });
 

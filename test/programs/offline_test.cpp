@@ -1,4 +1,4 @@
-// What query_offline reads and writes: OBJ files, files of motions, and the CSV lines of answers.
+// What query_offline reads and writes: shapes, files of motions, and the CSV lines of answers.
 // query_offline_test.py compares whole runs of the program.
 #include <gtest/gtest.h>
 
@@ -11,89 +11,22 @@ namespace {
 
 /// The beginning of a file, and the end of the message that refuses it.
 using Refusals = std::vector<std::pair<std::string, std::string>>;
-using Faces = std::vector<FaceIndices>;
 
-const std::string kVertices =
-    "v 0 0 0\n"
-    "v 1 0 0\n"
-    "v 1 1 0\n"
-    "v 0 1 0.5\n"
-    "v -1 0.25 2\n";
-
-MeshFile read_text(const std::string& content) { return read_obj(TemporaryFile(content).path()); }
-
-Faces faces_of(const std::string& content) { return mesh_of(read_text(content)).faces(); }
-
-TEST(ObjFile, has_the_vertices_and_faces_in_the_order_of_the_file) {
-  const MeshFile obj = read_text(
-      "\xEF\xBB\xBF# f 1 2 3\nmtllib a.mtl\nvt 0 0\nvn 0 0 1\nv 0.1 -0.2 1e-50 1\r\n"
-      "\tv\t1.00000001  1e0 0 \nusemtl f\n\nv 0 1 524288.03 0.5 0.5 0.5\nv 3 3 3\nv 4 4 4\n"
-      "l 1 2\nf 2 3 4 5 1\nf 1 2 3\r\nend\n");
-  EXPECT_EQ(obj.vertices,
-            (std::vector<float>{0.1F, -0.2F, 0, 1, 1, 0, 0, 1, 524288.03125F, 3, 3, 3, 4, 4, 4}));
-  // A polygon is cut into a fan.
-  EXPECT_EQ(mesh_of(obj).faces(), (Faces{{1, 2, 3}, {1, 3, 4}, {1, 4, 0}, {0, 1, 2}}));
-  EXPECT_EQ(obj.face_lines, (std::vector<std::size_t>{13, 13, 13, 14}));
-  EXPECT_EQ(obj.line_count, 15U);
-}
-
-TEST(ObjFile, has_corners_of_every_form) {
-  for (const char* face : {"f 1/4 2/5 3/6\n", "f 1//4 2//5 3//6\n", "f 1/4/7 2/5/8 3/6/9\n",
-                           "f -5 -4 -3\n", "f -5/-1/-1 2 -3//-1  # a comment\n"}) {
-    EXPECT_EQ(faces_of(kVertices + face), (Faces{{0, 1, 2}})) << face;
-  }
-  EXPECT_EQ(faces_of("f 1 2 3\n" + kVertices), (Faces{{0, 1, 2}}));
-  // Negative numbers are counted from the last vertex so far.
-  EXPECT_EQ(faces_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 0 0 1\nf -3 -2 -1\n"),
-            (Faces{{0, 1, 2}, {1, 2, 3}}));
-}
-
-TEST(ObjFile, is_refused_with_the_value_and_what_is_legal) {
-  const std::string range = "; must be finite and within 1e6 m";
-  const std::string numbers = "; legal are numbers from 1, or from -1 to -5 counted back";
-  const std::string none =
-      ": the file ends without an f line; a mesh in OBJ format has at least one";
-  Refusals refusals = {
-      {"v 0 1\n", ":1: a vertex with 2 coordinates; must have x, y and z"},
-      {"\nv 0 a 1\n", ":2: y is \"a\"; must be a number"},
-      {"v 0 1 nan\n", ":1: z is \"nan\"" + range},
-      {"v 0 -1e39 0\n", ":1: y is \"-1e39\"" + range},
-      {"v 0 0 1000001\n", ":1: z is \"1000001\"" + range},
-      {kVertices + "f 1 2\n", ":6: a face with 2 corners; must have at least 3"},
-      {kVertices + "f 1 2 3\nf 1 2 6\nf 1 2 3\n",
-       ":7: a face refers to vertex 6; the file has 5, counted from 1"},
-      {kVertices + "f 0 1 2\n", ":6: a face refers to vertex 0" + numbers},
-      {kVertices + "f 1 2 -6\n", ":6: a face refers to vertex -6" + numbers},
-      {kVertices + "f 1 2 4294967296\n", ":6: a face refers to vertex 4294967296" + numbers},
-      {"", ":1" + none},
-      {kVertices, ":5" + none}};
-  for (const std::string corner : {"x", "1.5", "/1", "2x/1", "99999999999999999999"}) {
-    refusals.emplace_back(
-        kVertices + "f 1 2 " + corner + "\n",
-        ":6: corner \"" + corner + "\" does not begin with the number of a vertex");
-  }
-  for (const auto& [content, why] : refusals) EXPECT_EQ(refusal_of(content, read_obj), why);
-  MeshFile large = read_text(kVertices + "f 1 2 3\n");
-  large.triangles.resize(3 * (MeshLimits().max_faces + 1));
-  EXPECT_EQ(input_error([&] { mesh_of(large); }),
-            large.file + ": 2000001 faces; at most 2000000 are allowed");
-}
-
-TEST(ObjFile, of_another_shape_has_the_same_faces) {
-  const TemporaryFile file(kVertices + "f 1 2 3\nf 2 3 4\n");
-  const TriangleMesh mesh = mesh_of(read_obj(file.path()));
-  const auto check = [&](const std::string& other) {
-    check_same_faces(read_obj(other), mesh, file.path());
-  };
-  EXPECT_NO_THROW(check(TemporaryFile(kVertices + "f 1//1 -4 -3\nf 2 3 4\n").path()));
+TEST(Shape, of_another_file_has_the_same_faces) {
+  const std::string kVertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.5\nv -1 0.25 2\n";
+  const TemporaryFile file(kVertices + "f 1 2 3\nf 2 3 4\n", ".obj");
+  TriangleMesh mesh = mesh_of(file.path());
+  const auto move = [&](const std::string& other) { move_to(other, mesh, file.path()); };
+  const TemporaryFile same("v 0 0 7\n" + kVertices.substr(8) + "f 1//1 -4 -3\nf 2 3 4\n", ".obj");
+  EXPECT_NO_THROW(move(same.path()));
+  EXPECT_EQ(mesh.vertices()[0].z(), 7.0F);
   const std::string right = file.path() + " has 5 vertices and 2 faces";
   for (const auto& [content, why] :
-       Refusals{{"f 1 2 3\nf 2 4 3\n",
-                 ":7: face 1 has the vertices 2 4 3; in " + file.path() + " they are 2 3 4"},
-                {"f 1 2 3\n", ":6: the file ends with 5 vertices and 1 faces; " + right},
-                {"v 0 0 0\nf 1 2 3\nf 2 3 4\n",
-                 ":8: the file ends with 6 vertices and 2 faces; " + right}}) {
-    EXPECT_EQ(refusal_of(kVertices + content, check), why);
+       Refusals{{"f 1 2 3\nf 2 4 3\n", ": face 1 has the vertices 1 3 2, counted from 0; in " +
+                                           file.path() + " they are 1 2 3"},
+                {"f 1 2 3\n", ": has 5 vertices and 1 faces; " + right},
+                {"v 0 0 0\nf 1 2 3\nf 2 3 4\n", ": has 6 vertices and 2 faces; " + right}}) {
+    EXPECT_EQ(refusal_of(kVertices + content, move, ".obj"), why);
   }
 }
 

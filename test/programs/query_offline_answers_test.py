@@ -50,44 +50,6 @@ class AnswersTest(ProgramCase):
             self.assertLessEqual(length(sub(vectors[:3], right.point)), TOLERANCE, what)
             self.assertLessEqual(length(sub(vectors[3:], right.normal)), 100 * TOLERANCE, what)
 
-    def test_stl_and_ply_files_give_the_answers_of_an_obj_file(self):
-        mesh = scenes.sheet(0.1, 6)
-        self.write_scene(mesh, ['%d,swept,0,0,0.1,%r,0.01,0.03,%r,0.02,-0.01,0.005' % (i, 0.01 * i, -0.01 * i)
-                                for i in range(8)])
-        vertices, faces = mesh.flat_vertices(), mesh.flat_faces()
-        points = [vertices[i:i + 3] for i in range(0, len(vertices), 3)]
-        corners = [faces[i:i + 3] for i in range(0, len(faces), 3)]
-        ply = ['ply', 'format ascii 1.0', 'element vertex %d' % len(points), 'property float x', 'property float y',
-               'property float z', 'element face %d' % len(corners), 'property list uchar int vertex_indices', 'end_header',
-               *('%r %r %r' % tuple(point) for point in points), *('3 %d %d %d' % tuple(face) for face in corners)]
-        stl = ['solid sheet', *(line for face in corners for line in (
-            'facet normal 0 0 1', 'outer loop', *('vertex %r %r %r' % tuple(points[corner]) for corner in face), 'endloop',
-            'endfacet')), 'endsolid sheet']
-        self.write('organ.PLY', '\n'.join(ply) + '\n')
-        self.write('organ.stl', '\n'.join(stl) + '\n')
-        expected = self.printed()
-        self.assertGreater(len(expected.splitlines()), 8)
-        for name in ('organ.PLY', 'organ.stl'):
-            self.assertEqual(self.printed(files=('--mesh', name, '--motions', 'motions.csv')), expected)
-
-    def test_broken_mesh_files_are_refused(self):
-        self.write('motions.csv', '')
-        ply = 'ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n' \
-              'element face 1\nproperty list uchar int vertex_indices\n'
-        pointer = 'version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1\n'
-        for name, text, word in [
-                ('cut.ply', ply, 'no line end_header'),
-                ('index.ply', ply + 'end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 99\n', 'face 0 names vertex 99'),
-                ('nan.stl', 'solid a\nfacet normal 0 0 1\nouter loop\nvertex nan 0 0\nvertex 1 0 0\nvertex 0 1 0\n'
-                            'endloop\nendfacet\nendsolid a\n', 'must be finite'),
-                *(('pointer' + ending, pointer, 'pointer of Git LFS') for ending in ('.obj', '.stl', '.ply')),
-                ('empty.stl', '', 'cannot be read')]:
-            with self.subTest(name=name):
-                self.write(name, text)
-                done = self.run_program('--mesh', name, '--motions', 'motions.csv')
-                self.assertEqual((done.returncode, done.stdout), (2, ''))
-                self.assertRegex(done.stderr, r'\A%s: .*%s.*\n\Z' % (name, word))
-
     def test_a_radius_in_millimetres_is_warned_of_once(self):
         self.write_scene(scenes.sheet(0.1, 6), ['%d,swept,0,0,0.1,0,0,0.05,0,0,0.04,5' % i for i in range(3)])
         done = self.run_program(*FILES)

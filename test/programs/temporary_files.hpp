@@ -15,10 +15,10 @@ namespace organ_collision {
 /// A file with a given content. The destructor removes it.
 class TemporaryFile {
  public:
-  explicit TemporaryFile(const std::string& content) {
+  explicit TemporaryFile(const std::string& content, const std::string& ending = {}) {
     static int count = 0;
     path_ = testing::TempDir() + "organ_collision_programs_" + std::to_string(getpid()) + "_" +
-            std::to_string(++count);
+            std::to_string(++count) + ending;
     std::ofstream(path_, std::ios::binary) << content;
   }
   ~TemporaryFile() { std::remove(path_.c_str()); }
@@ -49,8 +49,9 @@ std::string input_error(const Action& action) {
 /// The message for a file with this content that `read` refuses, without the file's name at its
 /// beginning.
 template <typename Read>
-std::string refusal_of(const std::string& content, const Read& read) {
-  const TemporaryFile file(content);
+std::string refusal_of(const std::string& content, const Read& read,
+                       const std::string& ending = {}) {
+  const TemporaryFile file(content, ending);
   const std::string message = input_error([&] { read(file.path()); });
   EXPECT_EQ(message.find(file.path()), 0U) << message;
   return message.substr(std::min(message.size(), file.path().size()));

@@ -104,7 +104,7 @@ class PackageTest(unittest.TestCase):
     def test_messages_load_without_rospy(self):
         program = ('import sys; from organ_collision.msg import OrganMesh;'
                    'from organ_collision.srv import QueryCollision;'
-                   'assert not {"rospy", "meshio"} & set(sys.modules)')
+                   'assert "rospy" not in sys.modules')
         subprocess.check_call([sys.executable, '-c', program])
 
 

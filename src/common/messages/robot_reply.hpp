@@ -41,9 +41,6 @@ RobotReply parse_reply(const std::string& bytes);
 /// for itself, except for the last two, which the node enforces.
 namespace reader_limits {
 
-/// [bytes] The largest size of the URDF, and of each mesh file: that of an STL file with two
-/// million triangles.
-inline constexpr std::size_t kFileBytes = 100'000'000;
 /// [bytes] The largest address space of robot_reader. It holds a file, its parsed form, and the
 /// reply to the node.
 inline constexpr std::size_t kMemoryBytes = std::size_t{2} << 30;

@@ -27,8 +27,8 @@ Options: [--jobs NUMBER] [--picker NAME] [--gl NAME] [--margin METRES] [--cleara
 
 Prints the faces that a tool touches, or touched while it moved, as CSV. Needs no ROS master.
 
-  --mesh FILE         the organ, an OBJ, STL or PLY file in metres; vertices are rounded to 32-bit
-                      floats
+  --mesh FILE         the organ in metres: an OBJ, STL, PLY, OFF, DAE or VTK file, or another that
+                      assimp reads; vertices are rounded to 32-bit floats
   --motions FILE      CSV file, or - for standard input; one motion in each line:
                       query,mode,trocar_x,trocar_y,trocar_z,previous_x,previous_y,previous_z,
                       tip_x,tip_y,tip_z,radius
@@ -60,8 +60,9 @@ Prints the faces that a tool touches, or touched while it moved, as CSV. Needs n
 Output: query,face,fraction,depth,point_x,point_y,point_z,normal_x,normal_y,normal_z
 sorted by query (integers by value, names as text), then face; with --motions - and with --shapes, in
 the order of the motions, then face. A face's number is its place among
-the faces of the mesh file, from 0; a polygon is cut into a fan and counts as so many faces. Without the
-options below, a motion without contact has no line. In the paper's modes the columns after face
+the faces of the mesh file, from 0; a polygon of k corners counts as k - 2 faces: a convex one as the fan
+around its first corner, a concave one without faces in the void. Without the options below, a motion
+without contact has no line. In the paper's modes the columns after face
 are empty.
 
 With --margin, --clearance or --placement each motion has at least one line. Further columns follow,
@@ -103,8 +104,8 @@ first.
 constexpr int kMostJobs = 1024;
 
 struct Options {
-  std::string mesh;         ///< an OBJ file; empty: the folder `shapes` is used
-  std::string mesh_before;  ///< an OBJ file; empty: the organ rests
+  std::string mesh;         ///< a mesh file; empty: the folder `shapes` is used
+  std::string mesh_before;  ///< a mesh file; empty: the organ rests
   std::string shapes;       ///< a folder with an OBJ file for each motion; empty: `mesh` is used
   std::string motions;      ///< a CSV file, or "-": standard input
   Questions questions;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -13,37 +12,14 @@
 
 namespace organ_collision {
 
-/// What a file says about a mesh and, of an OBJ file, in which lines.
-struct MeshFile {
-  std::string file;
-  std::vector<float> vertices;               ///< x y z x y z ... [m]; finite, within 1e6 m
-  std::vector<std::uint32_t> triangles;      ///< three vertex indices for each face, all legal
-  std::vector<std::size_t> face_lines = {};  ///< the line of each face, from 1; empty: not known
-  std::size_t line_count = 0;
-};
+/// The mesh of a file, as of read_mesh(). Vertices [m] are rounded to 32-bit floats. Throws
+/// InputError if the file is not legal, or the mesh too large.
+TriangleMesh mesh_of(const std::string& file);
 
-/// Reads the `v` and `f` lines of a Wavefront OBJ file and ignores all others. Faces are numbered
-/// in the order of the file's `f` lines. A polygon of n corners is cut into a fan around its first
-/// corner and counts as n - 2 faces. Vertices [m] are rounded to 32-bit floats. Indices may be
-/// negative (counted back from the last vertex above the line) and may carry texture and normal
-/// indices, which are ignored. Throws InputError if the file is missing, is not legal or has no
-/// face. (Assimp would leave out vertices without a face, round some numbers in another way, and
-/// not tell the line of an error.)
-MeshFile read_obj(const std::string& file);
-
-/// Reads the surface in an STL or PLY file, or in an OBJ file by read_obj(), which the ending of
-/// the name tells. Vertices and faces keep the order of the file. STL has no vertices: there,
-/// corners at the same place become one. Throws InputError as read_obj() does.
-MeshFile read_mesh(const std::string& file);
-
-/// The mesh of a file. Throws InputError if it is too large.
-TriangleMesh mesh_of(const MeshFile& obj);
-
-/// Throws InputError, naming the first difference, if `shape` does not have the same faces and the
-/// same number of vertices as `mesh`, which was read from `mesh_file`. It then cannot be another
-/// shape of this mesh.
-void check_same_faces(const MeshFile& shape, const TriangleMesh& mesh,
-                      const std::string& mesh_file);
+/// Moves the vertices of `mesh`, which was read from `mesh_file`, to those of another file. Throws
+/// InputError, naming the first difference, if the other file does not have the same faces and the
+/// same number of vertices. It then cannot be another shape of this mesh.
+void move_to(const std::string& file, TriangleMesh& mesh, const std::string& mesh_file);
 
 /// The threads that answer motions, and that read shapes for them.
 using QueryWorkers = QueryThreads<CollisionQuery>;
@@ -54,7 +30,7 @@ using QueryWorkers = QueryThreads<CollisionQuery>;
 class ShapeSource {
  public:
   /// Each motion meets the organ in the same shape, or while it moves from one shape to another.
-  /// `mesh`: the file (OBJ, STL or PLY) of the shape at the end of each motion. `mesh_before`: that
+  /// `mesh`: the file of the shape at the end of each motion. `mesh_before`: that
   /// of the shape at the start; empty: the organ rests. Throws InputError if a file is missing or
   /// is not legal, or if the files differ in their faces.
   ShapeSource(const std::string& mesh, const std::string& mesh_before);

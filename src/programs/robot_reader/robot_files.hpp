@@ -22,20 +22,21 @@ class ScopedTimeLimit {
   ScopedTimeLimit& operator=(const ScopedTimeLimit&) = delete;
 };
 
-/// The content of a regular file on this machine. `name`: an absolute path, or a URL that begins
-/// with package:// or file://, as in URDF. Throws ToolError if there is no such file, and for
-/// folders, FIFOs, devices, empty files and files larger than reader_limits::kFileBytes.
+/// The content of a regular file on this machine, as of read_file(). `name`: an absolute path, or a
+/// URL that begins with package:// or file://, as in URDF. Throws InputError.
 std::string read_resource(const std::string& name);
 
-/// The surface in a mesh file: the file, its vertices in the frame of its link [m], and triangles.
-/// Reads STL, DAE, OBJ and the other formats of assimp. As in RViz, the axes are those of the file.
-/// Lengths are multiplied by `scale`, and in DAE by the file's unit too. Corners at the same
-/// position become one vertex. Points, lines, and other files that the file names are ignored.
-/// `file`: as for read_resource(). `scale`: finite and not 0 along any axis; a negative one
-/// mirrors. Throws ToolError if `scale` is illegal, the file cannot be read, or a vertex is not
-/// finite. ToolSurface checks everything else, for example that there are triangles. A broken file
-/// may end the program.
-RobotShape read_mesh_file(const std::string& file, const Eigen::Vector3d& scale,
-                          const Eigen::Affine3d& T_link_mesh);
+/// The surface in a mesh file with this content, as of parse_mesh(), in the units and axes of the
+/// file. A broken file may end the program, and so does one that takes too long. Throws InputError.
+RobotShape mesh_shape(const std::string& file, const std::string& content);
+
+/// The surface in a mesh file: the file, its vertices in the frame of its link
+/// [m], and triangles. Lengths are multiplied by `scale`. `file`: as for read_resource(). `scale`:
+/// finite and not 0 along any axis; a negative one mirrors. Throws ToolError if `scale` is illegal,
+/// or the file cannot be read. ToolSurface checks everything else. A broken file may end the
+/// program.
+RobotShape read_mesh_file(const std::string& file,
+                          const Eigen::Vector3d& scale = Eigen::Vector3d::Ones(),
+                          const Eigen::Affine3d& T_link_mesh = Eigen::Affine3d::Identity());
 
 }  // namespace organ_collision

@@ -139,21 +139,10 @@ TEST(RobotReader, RefusalsAreTheReaders) {
 
 // Some versions of the parsers crash on these files; others report the error.
 TEST(RobotReader, FilesThatMayCrashTheReaderAreRefusedByName) {
-  for (const std::string name : {"crashing.obj", "crashing.dae"}) {
-    expect_words(refusal(robot_of(tool_file(name))),
-                 {"link 'tip': mesh '" + tool_file(name) + "'"});
-  }
+  expect_words(refusal(robot_of(tool_file("crashing.dae"))), {"link 'tip': mesh", "crashing.dae"});
 #ifndef __SANITIZE_THREAD__  // Its printf does not crash, so the file is read.
   EXPECT_FALSE(refusal(tool_text("crashing.urdf")).empty());
 #endif
-}
-
-TEST(RobotReader, TooMuchMemoryNamesTheFile) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "a sanitizer reserves more memory than the reader may have";
-#endif
-  expect_words(refusal(robot_of(tool_file("huge.ply"))),
-               {"link 'tip': mesh '" + tool_file("huge.ply") + "'", "not enough memory"});
 }
 
 // The parser needs a time that grows with the square of the depth.
@@ -164,16 +153,4 @@ TEST(RobotReader, NestedElementsMayTakeNoLongerThanOtherFilesOfTheirSize) {
   for (int i = 0; i < kDepth; ++i) urdf += "</a>";
   expect_words(refusal(urdf + "</robot>"),
                {"was ended by signal " + std::to_string(SIGPROF), "too large"});
-}
-
-// A face claims to have 300 000 corners, and a comment makes the file large enough for them. The
-// parser would need more than 10 s.
-TEST(RobotReader, FilesThatTakeTooLongForTheirSizeAreRefusedByName) {
-  const std::string path = testing::TempDir() + "long_face.ply";
-  std::string text = tool_text("long_face.ply");
-  text.insert(text.find("element vertex"), "comment " + std::string(300'000, '-') + "\n");
-  std::ofstream(path) << text;
-  expect_words(refusal(robot_of(path)), {"link 'tip': mesh '" + path + "'",
-                                         "was ended by signal " + std::to_string(SIGPROF)});
-  std::remove(path.c_str());
 }
