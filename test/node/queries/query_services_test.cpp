@@ -431,6 +431,17 @@ TEST_F(QueryServicesTest, SweepsBackwardsInTimeAreRefused) {
   EXPECT_EQ(at_rest.step_start, at_rest.header.stamp);
 }
 
+TEST_F(QueryServicesTest, RemovedOrganAndStaleMesh) {
+  parameters.mesh_timeout_sec = 2.0;
+  ros::Time::setNow(ros::Time::now() + ros::Duration(2.5));
+  expect_refused(ContactArray::STALE_MESH, {"'liver'", "2.5 s", "2"});
+  expect_refused(batch_of({through()}), ContactArray::STALE_MESH, "'liver'");
+  OrganMesh nothing;
+  nothing.organ = "liver";
+  organs.apply(boost::make_shared<OrganMesh>(nothing), ros::Time(51));
+  expect_refused(ContactArray::NO_MESH, {"'liver'"});
+}
+
 TEST_F(QueryServicesTest, WhatIsNoRejectionIsAnsweredToo) {
   QueryServices broken(
       {parameters, tools, pipeline}, [](const std::function<void()>&) { throw std::bad_alloc(); },
