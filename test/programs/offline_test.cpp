@@ -198,6 +198,13 @@ Names given(const Names& queries, Order order) {
   return names;
 }
 
+TEST(Motions, are_sorted_as_integers_or_as_text) {
+  const Names integers{"10", "9", "-3", "0", "100"}, names{"stab", "10", "9", "palpate 2"};
+  EXPECT_EQ(given(integers, Order::kByQuery), (Names{"-3", "0", "9", "10", "100"}));
+  EXPECT_EQ(given(names, Order::kByQuery), (Names{"10", "9", "palpate 2", "stab"}));
+  EXPECT_EQ(given(integers, Order::kAsInFile), integers);
+}
+
 TEST(Motions, are_refused_as_a_whole) {
   const Refusals refusals = {
       {file_of({"3", "4", "3"}), ":3: query \"3\" is already on line 1; each motion needs its own"},
