@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "picking/volumes/conservative_volume.hpp"
-#include "test/picking/volumes/clip_oracle.hpp"
+#include "test/proof/exact_sides.hpp"
 
 namespace organ_collision::bench {
 namespace {
@@ -122,6 +122,16 @@ std::vector<std::uint32_t> outcodes(const VolumeQuery& query, const std::vector<
   return codes;
 }
 
+/// The half-spaces of the volume, all moved outward by `growth` [m].
+std::vector<HalfSpace> moved_outward(const ViewingVolume& volume, double growth) {
+  std::vector<HalfSpace> half_spaces;
+  for (std::size_t i = 0; i < volume.half_space_count(); ++i) {
+    half_spaces.push_back(volume.half_space(i));
+    half_spaces.back().offset += growth;
+  }
+  return half_spaces;
+}
+
 bool contains(const std::vector<std::uint32_t>& sorted, std::uint32_t face) {
   return std::binary_search(sorted.begin(), sorted.end(), face);
 }
@@ -131,19 +141,17 @@ bool contains(const std::vector<std::uint32_t>& sorted, std::uint32_t face) {
 Answer brute_force_answer(const VolumeQuery& query, const OrganSurface& organ,
                           const std::vector<float>& vertices) {
   const std::vector<std::uint32_t> codes = outcodes(query, vertices);
+  const std::vector<HalfSpace> inner = moved_outward(query.volume, -kBand),
+                               outer = moved_outward(query.volume, kBand);
   Answer answer;
   for (std::uint32_t face = 0; face < organ.face_count(); ++face) {
     const std::uint32_t* corner = &organ.triangles[3 * face];
     if (codes[corner[0]] & codes[corner[1]] & codes[corner[2]]) continue;
-    switch (verdict(query.volume, corners(organ, vertices, face), kBand)) {
-      case Verdict::kIn:
-        answer.faces.push_back(face);
-        break;
-      case Verdict::kClose:
-        answer.close.push_back(face);
-        break;
-      case Verdict::kOut:
-        break;
+    const Triangle triangle = corners(organ, vertices, face);
+    if (oracle::meets(triangle, query.volume.origin(), inner)) {
+      answer.faces.push_back(face);
+    } else if (oracle::meets(triangle, query.volume.origin(), outer)) {
+      answer.close.push_back(face);
     }
   }
   return answer;

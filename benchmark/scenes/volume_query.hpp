@@ -42,7 +42,7 @@ struct Answer {
   std::vector<std::uint32_t> close;  ///< too close to the boundary for 32 bits: may be found or not
 };
 
-/// Clips every face in double precision.
+/// By the exact oracle of test/proof.
 Answer brute_force_answer(const VolumeQuery& query, const OrganSurface& organ,
                           const std::vector<float>& vertices);
 

@@ -299,7 +299,7 @@ TEST(Wrenches, KeepTheirLimitsAndAgreeWithTheForcesOnTissueInEachMessage) {
   Random random(47);
   for (const std::string& kind : oracle::proxy_scene_kinds()) {
     int pressing = 0, fading = 0;
-    for (int episode = 0; episode < 20; ++episode) {
+    for (int episode = 0; episode < 8; ++episode) {
       SCOPED_TRACE(kind + ", episode " + std::to_string(episode));
       Episode run(kind, random);
       run.run(1000);

@@ -54,7 +54,7 @@ class InstallTest(unittest.TestCase):
         build = os.path.join(self.folder, 'consumer')
         run('cmake', '-S', os.path.join(HERE, 'consumer'), '-B', build, '-DCMAKE_PREFIX_PATH=' + self.prefix,
             '-DCMAKE_CXX_COMPILER=' + COMPILER)
-        run('cmake', '--build', build)
+        run('cmake', '--build', build, '--parallel', '2')
         said = {name: run(os.path.join(build, name)).splitlines() for name in ('consumer', 'placement', 'proxy')}
         self.assertEqual(said['consumer'], ['0', '1'])
         self.assertEqual(said['placement'], ['clearance 0.015 m', 'inside', '3 near faces'])
@@ -109,9 +109,10 @@ class InstallTest(unittest.TestCase):
         """In a shell that has loaded only one space. Modules that a script imports from its own folder are no programs:
         they may not be executed."""
         sources = [os.path.join(SOURCE, 'scripts' if name == 'view.py' else 'examples', name) for name in SCRIPTS]
-        for space, more in ((DEVEL, sources), (self.prefix, [])):
-            paths = more + [path for path in glob.glob(os.path.join(space, 'lib/organ_collision/*'))
-                            if os.path.isfile(path) and os.access(path, os.X_OK) and not path.endswith('_test')]
+        built = [os.path.join(DEVEL, 'lib/organ_collision', name) for name in PROGRAMS]
+        installed = [path for path in glob.glob(os.path.join(self.prefix, 'lib/organ_collision/*'))
+                     if os.access(path, os.X_OK)]
+        for space, paths in ((DEVEL, sources + built), (self.prefix, installed)):
             # In a function without arguments, because setup.bash would take ours as its own.
             script = ('load() { . "$0/setup.bash"; }; load; for name in "$@"; do rosrun --prefix echo organ_collision $name; '
                       'done; rosrun organ_collision query_offline --help')

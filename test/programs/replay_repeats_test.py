@@ -7,9 +7,8 @@ import subprocess
 import unittest
 
 from organ_collision.msg import ContactArray, ToolPlacement
-from support import oracle
 from support.scenes import Mesh, box, sheet
-from support.tool_over_sheet import RADIUS, SHEET, at_height
+from support.tool_over_sheet import SHEET, at_height, depth_at
 
 from recording import CONTACTS, ReplayCase, TOOLS, messages, serialized
 
@@ -90,7 +89,7 @@ class ReplayRepeatsTest(ReplayCase):
         recorded = [message for message in serialized(self.recorded) if message[0] != CONTACTS]
         self.assertEqual(sorted(message for message in copied if message[0] != CONTACTS), sorted(recorded))
         ((_, answer),) = messages(self.answers)
-        self.assert_contacts(answer, oracle.static_contacts(SHEET, at_height(-0.01), RADIUS))
+        self.assert_depth(answer, depth_at(-0.01))
 
     def test_a_copied_topic_does_not_set_the_time(self):
         """A topic that the node does not hear may be recorded out of order, as in a merged bag."""

@@ -13,6 +13,7 @@
 #include "test/closed_surfaces.hpp"
 #include "test/proof/proxy/organ_oracle.hpp"
 #include "test/proof/proxy/referee.hpp"
+#include "test/query/proxy/proxy_scenes.hpp"
 #include "trials.hpp"
 
 namespace organ_collision::oracle {
@@ -118,12 +119,6 @@ const ProxySettings kSettings;
 const double kStop = kShaft.radius + kSettings.clearance;  // [m]
 
 ToolPose pose(const Vector3d& tip) { return {{Vector3d(0.0, 0.0, 0.3), tip}, {}, {}}; }
-
-ProxyOrgan organ_of(const GridSurface& surface) {
-  ProxyOrgan organ;
-  organ.shape = std::make_shared<TriangleMesh>(surface.vertices, surface.triangles());
-  return organ;
-}
 
 /// The right answer for a proxy at this place.
 ProxyAnswer answer_at(const Vector3d& tip, const Vector3d& hand) {

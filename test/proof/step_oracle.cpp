@@ -191,7 +191,7 @@ FirstTime first_time_within(const ShaftMotion& shaft, const FaceMotion& face, do
 
 FirstTime first_time_within(const LinkTrial& trial, const FaceMotion& face, double slack) {
   const auto distance_at = [&](double time) {
-    return closest_points(pose_at(trial, time) * trial.core, at(face, time)).distance;
+    return rounded_distance(pose_at(trial, time) * trial.core, at(face, time));
   };
   double reach = 0.0;
   for (std::size_t i = 0; i < trial.core.count; ++i) {

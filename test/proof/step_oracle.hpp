@@ -56,8 +56,7 @@ struct FirstTime {
 FirstTime first_time_within(const ShaftMotion& shaft, const FaceMotion& face, double radius,
                             double slack);
 
-/// The same for the core of a trial. It uses the library's distances, which have their own test,
-/// and interpolates poses by quaternions.
+/// The same for the core of a trial, whose poses are interpolated by quaternions.
 FirstTime first_time_within(const LinkTrial& trial, const FaceMotion& face, double slack);
 
 /// Whether a segment comes within `distance` [m] of a face while the ends of both move linearly.

@@ -1,4 +1,4 @@
-// collision_query.hpp: the placement where it has less to tell. exactness_test.cpp compares the
+// collision_query.hpp: the placement where it has less to tell. exactness_proof compares the
 // placement of shafts at closed surfaces with exact arithmetic.
 #include "organ_collision/query/placement.hpp"
 

@@ -185,61 +185,27 @@ class HapticProxyTest(ProxyCase):
             lambda message: message.transforms[0].child_frame_id == 'needle_proxy'
             and message.transforms[0].header.frame_id == FRAME), 'frame needle_proxy')
 
-    def test_a_free_tool_that_presses(self):
-        """The forces on vertices, and those of the places in the state, are minus the wrench and the wrench."""
+    def test_the_forces_on_vertices_are_minus_the_wrench(self):
         self.send_sheet()
-        pair = '%s/%s/stylus' % (self.node, self.organ)
-        wrenches, forces = Log(pair + '/wrench', WrenchStamped), Log(pair + '/vertex_forces', VertexForces)
-        self.stab('stylus', 0.004)
-
-        def of_one_stamp():
-            self.hands.hold('stylus', self.hands.tips['stylus'])
-            on = {message.header.stamp: message for message in forces.select(lambda on: True)}
-            answers = {state.header.stamp: state for state in self.states['stylus'].select(
-                lambda state: state.contacts and not state.fading)}
-            wrench = wrenches.last(lambda wrench: wrench.wrench.force.z > 0.5 and wrench.header.stamp in on
-                                   and wrench.header.stamp in answers)
-            return wrench and (wrench, on[wrench.header.stamp], answers[wrench.header.stamp])
-
-        wrench, on_tissue, state = wait_until(of_one_stamp, 'wrench, vertex forces and state of one stamp')
+        forces = Log('%s/%s/stylus/vertex_forces' % (self.node, self.organ), VertexForces)
+        pushed = -self.stab('stylus', 0.004).wrench.force.z
+        on_tissue = self.hold_until('stylus', (X, Y, -0.004), lambda m: abs(sum(f.z for f in m.forces) - pushed) < 0.1,
+                                    'forces on vertices', forces)
         self.assertEqual((on_tissue.organ, on_tissue.tool, on_tissue.topology), (self.organ, 'stylus', 1))
-        for axis in 'xyz':
-            total = sum(getattr(force, axis) for force in on_tissue.forces)
-            self.assertAlmostEqual(total, -getattr(wrench.wrench.force, axis), delta=1e-6)
-        on_vertices = [(SHEET.vertices[i], vector(force)) for i, force in zip(on_tissue.vertices, on_tissue.forces)]
-        for i, expected in enumerate(vector(wrench.wrench.torque)):
-            a, b = (i + 1) % 3, (i + 2) % 3
-            torque = sum(at[a] * force[b] - at[b] * force[a] for at, force in on_vertices)
-            self.assertAlmostEqual(torque, -expected, delta=1e-6)
-        for center, tip, trocar in zip(vector(state.center), vector(state.hand.position), TROCAR):
-            self.assertAlmostEqual(center, 0.5 * (tip + trocar), delta=1e-9)
-        place = state.contacts[0]
-        self.assertEqual((place.organ, place.link, vector(place.velocity)), (self.organ, -1, (0.0, 0.0, 0.0)))
-        self.assertAlmostEqual(place.normal.z, -1.0, delta=1e-6)
-        self.assertAlmostEqual(place.distance, CLEARANCE, delta=1e-6)
-        self.assertAlmostEqual(sum(place.force.z for place in state.contacts), -wrench.wrench.force.z, delta=1e-6)
-
-    def assert_force_falls(self, log, expected, words):
-        """Waits until the force is gone. From its last whole value, it must only fall, and the reason is told."""
-        wait_until(lambda: log.messages and no_force(log.messages[-1]), lambda: 'no force; there is %s' % log.last())
-        states = log.select(lambda state: True)
-        answered = max([i for i, state in enumerate(states) if state.state != NO_ANSWER], default=-1)
-        lost = states[answered + 1:]
-        for word in words:
-            self.assertIn(word, lost[0].message)
-        forces = [state.wrench.force.z for state in lost]
-        # In a step it changes by at most 300 N/s for 2 ms.
-        self.assertAlmostEqual(forces[0], expected, delta=0.6 + 0.01 * expected, msg='it fades from where it was')
-        self.assertLess(max((a - b for a, b in zip(forces, forces[1:])), default=0.0), 0.6 + 1e-6)
-        self.assertEqual(forces, sorted(forces, reverse=True))
-        wait_until(lambda: any(words[0] in text for texts in self.diagnostics.summaries.values() for text in texts),
-                   'the reason on /diagnostics')
+        state = self.states['stylus'].last()
+        self.assertEqual({(place.organ, place.link) for place in state.contacts}, {(self.organ, -1)})
 
     def test_when_poses_stop_the_force_fades_and_comes_back(self):
         self.send_sheet()
         for _ in range(2):
-            state = self.stab()
-            self.assert_force_falls(self.states['needle'], state.wrench.force.z, ['pose_timeout_sec'])
+            self.stab()
+            log = self.states['needle']
+            wait_until(lambda: no_force(log.last()), lambda: 'no force; there is %s' % log.last())
+            fading = [state.wrench.force.z for state in log.messages if state.state == NO_ANSWER]
+            self.assertGreater(len(fading), 5)
+            self.assertIn('pose_timeout_sec', log.last().message)
+            wait_until(lambda: any('pose_timeout_sec' in text for texts in self.diagnostics.summaries.values()
+                                   for text in texts), 'the reason on /diagnostics')
 
     def test_without_links_or_organs_there_is_no_answer(self):
         self.send_sheet()

@@ -137,17 +137,6 @@ class PythonModuleTest(unittest.TestCase):
         self.assertEqual([len(faces) > 0 for faces in expected], [abs(x) < 0.051 for x in places])
         self.assertEqual(clearance_line, 'x = -0.08 m: 25.0 mm away')
 
-    def test_topology_is_that_of_the_answers(self):
-        organ = self.organ('sheet')
-        self.assertEqual(organ.topology, 0)
-        organ.replace(VERTICES, FACES[::-1])
-        self.assertEqual(organ.topology, 1)
-        wait_until(lambda: self.queries.answer('sheet', TROCAR, TIP, RADIUS).topology == organ.topology, 'new faces')
-        for nothing in (FACES[:0], VERTICES[:0]):
-            with self.assertRaisesRegex(ValueError, 'face'):
-                organ.replace(nothing, FACES[:0])
-        self.assertEqual(organ.topology, 1)
-
     def test_waiting_ends_with_the_refusal_of_the_mesh(self):
         """But not while the organ is removed, or unknown: a mesh may come."""
         organ = Organ('far', 1e9 * VERTICES, FACES)

@@ -8,16 +8,15 @@ from organ_collision.msg import ContactArray
 import rospy
 import rostest
 
-from support import oracle, scenes
-from support.contact_case import KeepsContract, SHAFT_LINK
-from support.tool_case import ToolCase, ball_contacts
+from support.contact_case import KeepsContract
+from support.tool_case import ToolCase
+from support.tool_over_sheet import SHEET, at_height, depth_at
 
 STATIC, SWEPT = ContactArray.STATIC, ContactArray.SWEPT
-SHEET = scenes.sheet(0.1, 6)
-BALL, SHAFT = 0.006, 0.005  # [m] radii
+BALL = 0.006  # [m] radius
 # The hook's trocar, tip and ball [m].
-ABOVE = ((0.02, -0.03, 0.3), (0.011, 0.006, 0.05), (-0.013, 0.017, 0.04))
-BELOW = ((0.05, -0.01, 0.28), (0.004, -0.003, -0.04), (-0.003, -0.011, -0.03))
+ABOVE = (*at_height(0.05), (-0.013, 0.017, 0.04))
+BELOW = (*at_height(-0.04), (-0.013, 0.017, -0.03))
 # The words that each bad tool's message must contain: what is wrong, and where.
 FAULTS = {
     'mesh_missing': ["'robots/mesh'", "'missing'", '/no_such.stl'],
@@ -38,31 +37,26 @@ class ToolsTest(KeepsContract, ToolCase):
             self.assertEqual((result.status, result.contacts), (ContactArray.NO_TRANSFORM, []))
             for word in ("link 'ball'", "tool 'left'", "joint 'wrist'", 'left/ball'):
                 self.assertIn(word, result.message)
-        high, low, aside = ((0.013, 0.007, 0.04),), ((-0.012, 0.01, -0.05),), ((-0.03, -0.02, 0.03),)
+        high, low, aside = (at_height(0.04)[1:], at_height(-0.05)[1:], ((-0.03, -0.02, 0.03),))
         first = self.step(SHEET, {'left': high, 'right': aside}, vertices=True)
         for result in first.values():
             self.assertEqual((result.mode, result.links), (STATIC, ['ball']))
-            self.assert_contacts(result, [])
+            self.assert_depth(result, None)
         self.place('left', (low, self.stamp + rospy.Duration(0, 4 * 10**6)))
         second = self.step(SHEET, {'left': high, 'right': aside}, vertices=True)
         self.assertEqual((second['left'].mode, second['left'].step_start), (SWEPT, first['left'].header.stamp))
-        down = ball_contacts(SHEET, high, low, BALL)
-        self.assertGreater(len(down), 0)
-        self.assert_contacts(second['left'], [c._replace(fraction=0.4 * c.fraction, depth=found.depth, behind=None)
-                                              for c, found in zip(down, second['left'].contacts)], 1e-6)
-        self.assert_contacts(second['right'], [])
+        self.assert_ok(second['left'])
+        # It is down after 4 ms of 10 ms, and touches when its centre is one radius above the sheet.
+        self.assertAlmostEqual(min(c.fraction for c in second['left'].contacts), 0.4 * (0.04 - BALL) / 0.09, delta=1e-6)
+        self.assert_depth(second['right'], None)
 
     def test_a_shaft_and_a_link(self):
-        """Both touch; the shaft's trocar moves, too."""
         first = self.step(SHEET, {'hook': ABOVE})['hook']
-        self.assert_contacts(first, [])
+        self.assert_depth(first, None)
         result = self.step(SHEET, {'hook': BELOW}, vertices=True)['hook']
         self.assertEqual((result.mode, result.step_start, result.links), (SWEPT, first.header.stamp, ['ball']))
-        shaft = oracle.swept_contacts(SHEET, ABOVE[:2], BELOW[:2], SHAFT)
-        ball = ball_contacts(SHEET, ABOVE[2:], BELOW[2:], BALL)
-        self.assertGreater(min(len(shaft), len(ball)), 0)
-        self.assert_contacts_of_link(result, SHAFT_LINK, shaft, 1e-6)
-        self.assert_contacts_of_link(result, 0, ball, 1e-6)
+        for link, depth in ((-1, depth_at(-0.04)), (0, depth_at(-0.03, BALL))):
+            self.assertAlmostEqual(max(c.depth for c in result.contacts if c.link == link), depth, delta=1e-6)
         order = [(c.face, c.link) for c in result.contacts]
         self.assertEqual(order, sorted(order))
 

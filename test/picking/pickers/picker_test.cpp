@@ -16,8 +16,8 @@
 #include "picking/volumes/conservative_volume.hpp"
 #include "picking/volumes/paper_volumes.hpp"
 #include "test/grid_surface.hpp"
-#include "test/picking/volumes/clip_oracle.hpp"
 #include "test/picking/volumes/random_motions.hpp"
+#include "test/proof/exact_sides.hpp"
 #include "test/refusals.hpp"
 #include "test/resident_memory.hpp"
 
@@ -117,11 +117,16 @@ TEST_P(PickerTest, DepthRangesAreThoseOfTheClippedFaces) {
          {paper_static_volume(motion.end, 0.005), paper_swept_volume(motion, 0.005),
           paper_naive_volume(motion, 0.005)}) {
       const HalfSpace near = volume.half_space(4);
+      std::vector<HalfSpace> well_inside;
+      for (std::size_t k = 0; k < volume.half_space_count(); ++k) {
+        well_inside.push_back(volume.half_space(k));
+        well_inside.back().offset -= 1e-6;
+      }
       for (const Candidate& candidate : pick(volume, mesh)) {
         const Triangle face = mesh.triangle(candidate.face);
-        if (verdict(volume, face, 1e-6) != Verdict::kIn) continue;
+        if (!oracle::meets(face, volume.origin(), well_inside)) continue;
         double nearest = 1e9, farthest = -1e9;
-        for (const Vector3d& corner : clip_oracle(volume, face)) {
+        for (const Vector3d& corner : clipped(shifted(face, volume.origin()), volume)) {
           const double depth = near.offset - near.normal.dot(corner);
           nearest = std::min(nearest, depth);
           farthest = std::max(farthest, depth);

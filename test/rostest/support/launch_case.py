@@ -12,11 +12,12 @@ from sensor_msgs.msg import JointState
 from shape_msgs.msg import Mesh
 from tf2_msgs.msg import TFMessage
 
-from . import oracle, scenes
+from . import scenes
 from .contact_case import ContactCase
 from .foreign_meshes import shape_mesh
 from .node_client import LIMIT, Log, NodeClient, shaft, wait_until
 from .processes import Launched, nodes_online
+from .tool_over_sheet import RADIUS, SHEET, at_height, depth_at
 
 PACKAGE = roslib.packages.get_pkg_dir('organ_collision')
 # What these nodes of Python send once all their topics are registered at the ROS master. None may be stopped before:
@@ -71,10 +72,9 @@ class LaunchCase(ContactCase):
 
     def check_collision_node(self, name, process=None):
         """The collision node answers about an organ that only it has."""
-        node, axis = NodeClient(name, process=process), ((0.01, 0.02, 0.3), (0.011, 0.017, 0.002))
-        sheet = scenes.sheet(0.1, 4)
-        node.bring('sheet', sheet, rospy.Time(1))
-        self.assert_contacts(node.query('sheet', shaft(*axis, 0.005)), oracle.static_contacts(sheet, axis, 0.005))
+        node = NodeClient(name, process=process)
+        node.bring('sheet', SHEET, rospy.Time(1))
+        self.assert_depth(node.query('sheet', shaft(*at_height(0.002), RADIUS)), depth_at(0.002))
         node.close()
 
     def check_mesh_adapter(self, organs, collision_node='/organ_collision'):

@@ -1,6 +1,6 @@
 """Meshes and rigid poses for the tests. Lengths are in metres, and frames are right-handed.
 
-A mesh rounds its vertices to 32-bit floats, as in the messages, so that the node and the oracle work with the same
+A mesh rounds its vertices to 32-bit floats, as in the messages, so that the node and the test work with the same
 numbers."""
 
 import math

@@ -7,20 +7,13 @@ from organ_collision.msg import ContactArray
 import rospy
 from rosgraph_msgs.msg import Clock
 
-from . import oracle, scenes
+from . import scenes
 from .contact_case import ContactCase
 from .node_client import FAR_AWAY, NodeClient, TfSender, wait_until
 
 WORLD_LIVER = scenes.Pose((0.2, 0.35, -0.1, 0.9), (0.7, -0.4, 1.1))
 STEP = rospy.Duration(0, 10**7)
 OUT_OF_REACH = 'out_of_reach'  # an organ that no tool touches
-
-
-def ball_contacts(mesh, before, after, radius):
-    """The contacts of a ball whose centre moves on a straight line from `before` to `after`, each a tuple (centre,).
-    For the oracle, the ball is a shaft whose trocar is its tip."""
-    found = oracle.swept_contacts(mesh, before * 2, after * 2, radius)
-    return [contact._replace(shaft=0.0) for contact in found]
 
 
 class ToolCase(ContactCase):

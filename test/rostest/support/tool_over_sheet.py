@@ -10,3 +10,8 @@ RADIUS = 0.005
 def at_height(height):
     """The tool, straight above (0.013, 0.007), with its tip at this height."""
     return (TROCAR, (TROCAR[0], TROCAR[1], height))
+
+
+def depth_at(height, radius=RADIUS):
+    """How deep the tool's deepest contact with the sheet is [m]."""
+    return radius - height
