@@ -220,7 +220,7 @@ Triangle face_at(double z) {
 
 FaceContact at_rest(const ShaftAxis& axis, const Triangle& face) {
   const auto contact =
-      refine({ShaftMotion{axis, axis}, kShaftRadius, {axis}}, {{face, face}, 0, 1, face});
+      refine(MovingShaft({axis, axis}, kShaftRadius, axis), {{face, face}, 0, 1, face});
   EXPECT_TRUE(contact);
   return contact.value_or(FaceContact());
 }
@@ -241,7 +241,7 @@ TEST(Contact, OfATieIsDecidedByTheLeastDistance) {
   const Vector3d low(0.0, 0.0, 0.005), high(0.1, 0.0, 0.005 + 9e-13);
   for (const ShaftAxis& axis : {ShaftAxis{low, high}, ShaftAxis{high, low}}) {
     const auto contact =
-        refine({ShaftMotion{axis, axis}, 0.005 + 2.25e-13, {axis}}, {{face, face}, 0, 1, face});
+        refine(MovingShaft({axis, axis}, 0.005 + 2.25e-13, axis), {{face, face}, 0, 1, face});
     ASSERT_TRUE(contact);
     EXPECT_EQ(contact->shaft, 1.0);
     EXPECT_GE(contact->depth, 0.0);
