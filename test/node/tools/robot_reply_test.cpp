@@ -21,7 +21,7 @@ std::vector<RobotLink> two_links() {
   mesh.file = "jaw.stl";
   mesh.vertices = {1, 2, 3, 4, 5, 6, -1, 0.1, 1e-300};
   mesh.triangles = {0, 1, 2, 2, 1, 0};
-  std::vector<RobotLink> two_links(3);
+  std::vector<RobotLink> links(3);
   links[0].joint = "wrist";
   links[0].shapes = {shape_of(RobotShape::SPHERE, 0.01, 0, 0), shape_of(RobotShape::BOX, 1, 2, 3)};
   links[2].joint = "jaw_joint";
