@@ -28,7 +28,7 @@ using namespace std::chrono_literals;
 using SteadyClock = std::chrono::steady_clock;
 
 // How often things happen, in a second of simulated time.
-constexpr double kJumpsOfClock = 0.25, kCuts = 0.3, kFloods = 0.2, kBriefChanges = 10.0;
+constexpr double kJumpsOfClock = 0.25, kCutMessages = 0.3, kFloods = 0.2, kBriefChanges = 10.0;
 constexpr Tick kFarthestJump = 3000;
 constexpr Tick kEarliest = 50'000;
 constexpr int kFloodOfVertices = 30, kFloodOfPoses = 200;
@@ -175,7 +175,7 @@ class Simulator {
   void tick() {
     if (happens(kJumpsOfClock)) jump();
     // The vertices of a tick are the same in each message.
-    if (happens(kCuts) && script_.glitch(tick_) == Glitch::kNone) {
+    if (happens(kCutMessages) && script_.glitch(tick_) == Glitch::kNone) {
       ++topology_;
       ++sent_["cuts"];
       send_mesh();
