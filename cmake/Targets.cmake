@@ -37,10 +37,6 @@ set(CMAKE_UNITY_BUILD_BATCH_SIZE 6)
 # organ_collision_target(TARGET): sets the warnings that every target of the package is built with.
 function(organ_collision_target target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic $<$<BOOL:${ORGAN_COLLISION_STRICT}>:-Werror>)
-  if(CMAKE_UNITY_BUILD)
-    # GCC takes the sources that are compiled as one for headers, and warns of classes without a name outside of theirs.
-    target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
-  endif()
 endfunction()
 
 # organ_collision_layer(NAME [STATIC] SOURCES...): a library of the package, organ_collision_NAME. The
