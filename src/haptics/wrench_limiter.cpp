@@ -10,6 +10,9 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// [1] A load that exceeds a limit by this share is within it: it was scaled down to the limit.
+constexpr double kRounding = 1e-12;
+
 const OrganForce* find(const std::vector<OrganForce>& forces, const std::string& organ) {
   const auto found = std::find_if(forces.begin(), forces.end(),
                                   [&](const OrganForce& force) { return force.organ == organ; });
@@ -102,7 +105,7 @@ void WrenchLimiter::lower(std::vector<OrganForce>& forces, const WrenchLimits& l
                           double before) {
     const double most = before > limit ? limit + left * (before - limit) : limit;
     const double share = share_within_limit(sum, most);
-    if (share == 1.0) return;
+    if (share > 1.0 - kRounding) return;
     for (OrganForce& of_organ : forces) of_organ.*load *= share;
   };
   shrink(&OrganForce::force, force_of(forces), limits.force, lowered_force_);
