@@ -9,7 +9,7 @@
 namespace organ_collision {
 namespace {
 
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF", kBlanks = " \t";
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 }  // namespace
 
@@ -38,16 +38,12 @@ bool MeshText::add_words_of_line() {
   begin_ = std::min(end + (ends_with_both ? 2 : 1), content_.size());
   ++lines_;
   const std::size_t comment = line.find(comment_);
-  line = line.substr(0, comment);
-  line.remove_suffix(line.size() - (line.find_last_not_of(kBlanks) + 1));
+  line = trimmed(line.substr(0, comment));
   const bool continues =
       continues_ && comment == std::string_view::npos && !line.empty() && line.back() == '\\';
   if (continues) line.remove_suffix(1);
-  for (std::size_t at = line.find_first_not_of(kBlanks); at < line.size();) {
-    const std::size_t word_end = std::min(line.find_first_of(kBlanks, at), line.size());
-    words_.push_back(line.substr(at, word_end - at));
-    at = line.find_first_not_of(kBlanks, word_end);
-  }
+  split_words(line, words_of_line_);
+  words_.insert(words_.end(), words_of_line_.begin(), words_of_line_.end());
   return continues;
 }
 

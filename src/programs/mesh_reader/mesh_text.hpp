@@ -41,10 +41,11 @@ class MeshText {
   std::string_view content_;
   char comment_;
   bool continues_, has_lone_returns_ = false;
-  std::size_t begin_ = 0;  ///< where the next line begins
-  std::size_t lines_ = 0;  ///< how many lines were read
-  std::size_t line_ = 0;   ///< the number of the line, from 1; 0: none
-  std::vector<std::string_view> words_;
+  std::size_t begin_ = 0;                ///< where the next line begins
+  std::size_t lines_ = 0;                ///< how many lines were read
+  std::size_t line_ = 0;                 ///< the number of the line, from 1; 0: none
+  std::vector<std::string_view> words_;  ///< those of all lines that a backslash joins
+  std::vector<std::string_view> words_of_line_;
 };
 
 }  // namespace organ_collision
