@@ -23,7 +23,7 @@ using namespace organ_collision;
 namespace {
 
 /// [motions] Of an input that are answered.
-constexpr int kMost = 10;
+constexpr int kMostMotions = 10;
 
 /// The path of a file with this content, which exists only in memory, and until the next call.
 std::string memory_file(const std::string& content) {
@@ -78,7 +78,7 @@ const FuzzTarget motion_file_target("motion_file", [](const std::uint8_t* data, 
     Motions(path, Motions::Order::kAsInFile);
     Motions motions(path, Motions::Order::kByQuery);
     demand(motions.count() > 0, "a legal file has a motion");
-    for (int i = 0; i < kMost; ++i) {
+    for (int i = 0; i < kMostMotions; ++i) {
       const std::optional<Motion> motion = motions.next();
       if (!motion) break;
       answer(*motion);
