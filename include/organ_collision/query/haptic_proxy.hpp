@@ -80,7 +80,8 @@ struct ProxyOrgan {
   /// The side of the surface on which the whole proxy stays: kOutside, or kInside for a hollow
   /// organ, whose wall then holds the tool. kUnknown: the side on which the tool starts, that is
   /// the side of its trocar or else of its first link at the first tick and after a reset or a jump
-  /// of the hand. A surface that is not closed has no sides: the proxy keeps the side on which it starts.
+  /// of the hand. A surface that is not closed has no sides: the proxy keeps the side on which it
+  /// starts.
   Side keep = Side::kOutside;
 };
 

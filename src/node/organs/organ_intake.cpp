@@ -175,7 +175,8 @@ OrganUpdate OrganIntake::apply(OrganMessage waiting) {
     update.why_not = rejection.what();
     ++counts_.refused;
     const auto time = SteadyClock::now();
-    const bool may_start = update.status == ContactArray::UNKNOWN_ORGAN && time - start_ < kSendersStart;
+    const bool may_start =
+        update.status == ContactArray::UNKNOWN_ORGAN && time - start_ < kSendersStart;
     if (!may_start) rejected_.add(rejection.reason(), rejection.what(), time);
   }
   return update;

@@ -1,8 +1,7 @@
 // LoadWatch, and what the scheduler says of a node that falls behind.
-#include "node/steps/step_scheduler.hpp"
-
 #include <gtest/gtest.h>
 
+#include "node/steps/step_scheduler.hpp"
 #include "node_parts.hpp"
 
 using namespace organ_collision;
