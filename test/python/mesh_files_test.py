@@ -22,6 +22,7 @@ CUBE_FACES = np.array([[0, 2, 3], [0, 3, 1], [4, 5, 7], [4, 7, 6], [0, 1, 5], [0
 HAS_VTK = subprocess.call(['/usr/bin/python3', '-c', 'import vtkmodules.vtkIOXML'], stderr=subprocess.DEVNULL) == 0
 CUBES = ['c.vtp', 'c1.off', 'cont.obj', 'edges.ply', 'fcol.ply', 'poly3.vtk', 'slicer51.vtk', 'ushort.ply',
          'vertex_index.ply', 'wedge.ply']
+OF_OWN_MESH = ('cont.obj', 'upper.STL', 'slicer51.vtk', 'bcut.stl')  # It loads slowly, and calls read_mesh.
 DAE = """<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset/>
 <library_geometries><geometry id="g"><mesh><source id="p"><float_array id="a" count="9">0 0 0 0.5 0 0 0 0.25 0</float_array>
 <technique_common><accessor source="#a" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
@@ -45,7 +46,7 @@ REFUSED = {
     'pointer.stl': (b'version https://git-lfs.github.com/spec/v1\n', "it is only a pointer of Git LFS; fetch the file itself by 'git lfs pull'"),
     'points.obj': (b'v 0 0 0\n', 'has no triangles or polygons; a volume mesh needs its surface extracted first'),
     'cut.off': (b'OFF 3 1 0\n0 0 0\n', 'the file ends before it has 3 of the element "vertex"; it may be cut off'),
-    'text.liver': (b'v 0 0 0\n', 'No suitable reader found for the file format of file'),
+    'text.liver': (b'This is no mesh.\n', 'No suitable reader found for the file format of file'),
     'tetrahedron.vtu': (b'<VTKFile', 'VTK cannot read it'),
     'bcount0.stl': (None, 'its header counts 0 triangles, for which it must have 84 bytes; the file has 684 bytes, as for 12 triangles'),
     'bcut.stl': (None, 'its header counts 12 triangles, for which it must have 684 bytes; the file has 664 bytes, as for 11 triangles'),
@@ -120,7 +121,9 @@ class MeshFilesTest(unittest.TestCase):
         expected = [sorted(np.flatnonzero((faces == vertex).any(axis=1))) for vertex in range(len(vertices))]
         expected += [[face] for face in range(len(faces))]
         self.assertEqual(self.offline(path, [*vertices, *vertices[faces].mean(axis=1)]), expected, name)
-        self.assertTrue(self.own_mesh(path).startswith('%d vertices, %d faces, ' % (len(vertices), len(faces))), name)
+        if name in OF_OWN_MESH:
+            self.assertTrue(self.own_mesh(path).startswith(
+                '%d vertices, %d faces, ' % (len(vertices), len(faces))), name)
 
     def assert_refused(self, path, why, name):
         with self.assertRaises(MeshFileError) as caught:
@@ -130,7 +133,8 @@ class MeshFilesTest(unittest.TestCase):
         self.assertIn(why, text, name)
         self.assertEqual(self.urdf_mesh(path), "link 'l': mesh " + text, name)
         self.assertEqual(self.offline(path, [[0, 0, 0]]), text + '\n', name)
-        self.assertEqual(self.own_mesh(path), 'own_mesh.py: %s\n' % text, name)
+        if name in OF_OWN_MESH:
+            self.assertEqual(self.own_mesh(path), 'own_mesh.py: %s\n' % text, name)
 
     def test_the_same_mesh(self):
         rows = [(name, None, CUBE, CUBE_FACES) for name in CUBES]
