@@ -182,3 +182,5 @@ if __name__ == '__main__':
         pass
     except RuntimeError as error:
         sys.exit('demo_report.py: %s' % error)
+    finally:
+        rospy.signal_shutdown('the report ends')  # Signs off from the master, which rospy's own handler would do.

@@ -95,7 +95,7 @@ TEST(HapticParameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
             "~max_force is '0'; must be a number, more than 0, at most 10000, or .inf");
   XmlRpcValue keep;
   EXPECT_EQ(refusal_of<HapticProxyParameters>("keep", "inside"),
-            "~keep is 'inside'; must be a list of groups of organ and side");
+            "~keep is the text 'inside'; must be a list of groups of organ and side");
   keep[0] = kept("colon", "left");
   expect_words(refusal_of<HapticProxyParameters>("keep", keep), {"~keep[0]/side is 'left'"});
   keep[0] = kept("", "inside");

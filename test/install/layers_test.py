@@ -18,8 +18,8 @@ CORE = ['geometry', 'picking', 'query']
 MAY_INCLUDE = {
     'geometry': [], 'picking': CORE[:1], 'query': CORE[:2], 'common': ['geometry'], 'node': CORE + ['common'],
     'haptics': CORE + ['common', 'node'], 'adapters': ['geometry', 'common'], 'demo': ['geometry', 'common'],
-    'programs/query_offline': CORE + ['common'], 'programs/robot_reader': ['geometry', 'common'],
-    'programs/replay': CORE + ['common', 'node'],
+    'programs/mesh_reader': ['geometry', 'common'], 'programs/robot_reader': ['geometry', 'common', 'programs/mesh_reader'],
+    'programs/query_offline': CORE + ['common', 'programs/mesh_reader'], 'programs/replay': CORE + ['common', 'node'],
 }
 # The folders of a library, in the order in which data flows through them: each uses only those before it.
 ROOMS = {'geometry': ['organ', 'tool', 'distance', 'sides'],

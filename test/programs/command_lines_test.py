@@ -15,7 +15,7 @@ FILES = MESH + MOTIONS
 
 # Arguments, how the line begins, and words in it.
 QUERY_OFFLINE = [
-    ('--mesh broken.obj' + MOTIONS, 'broken.obj:4', '"nan"'),
+    ('--mesh broken.obj' + MOTIONS, 'broken.obj:4', 'a coordinate is nan; must be finite'),
     ('--mesh none.obj' + MOTIONS, 'none.obj', 'no such file'),
     ('--mesh .' + MOTIONS, '.', 'it is a folder'),
     (FILES + ' --mesh-before other.obj', 'other.obj', 'face 1', '1 2 3', '1 3 2', 'organ.obj'),

@@ -11,11 +11,11 @@ namespace organ_collision {
 /// How the candidate faces are found. All kinds lead to the same contacts.
 enum class PickerKind { kFeedback, kSelect, kCpu };
 
-/// A kind of picker, as users name it. `about` is part of --help and of the reference.
+/// A kind of picker, as users name it.
 struct PickerName {
-  const char* name;
-  PickerKind value;
-  const char* about;
+  const char* name;   ///< in parameters and options
+  PickerKind value;   ///< the kind
+  const char* about;  ///< what --help and the reference say of it
 };
 
 /// The names of all kinds, the default one first.
@@ -43,8 +43,8 @@ enum class GlPlatform {
 
 /// A platform, as users name it.
 struct GlPlatformName {
-  const char* name;
-  GlPlatform value;
+  const char* name;  ///< in parameters
+  GlPlatform value;  ///< the platform
 };
 
 /// All platforms, the default one first.

@@ -67,9 +67,10 @@ std::string remedy(const XmlRpcValue& value, XmlRpcValue::Type expected) {
   if (expected == XmlRpcValue::TypeString) return ": write it in quotes";
   if (expected == XmlRpcValue::TypeBoolean) return ": write true or false without quotes";
   if (type == XmlRpcValue::TypeBoolean) return {};
-  return expected == XmlRpcValue::TypeInt
-             ? ": write it without quotes, decimal point and exponent"
-             : ": write it without quotes; YAML takes 5e-3 for a text, and 5.0e-3 for a number";
+  if (expected == XmlRpcValue::TypeInt)
+    return ": write it without quotes, decimal point and exponent";
+  if (expected != XmlRpcValue::TypeDouble) return {};
+  return ": write it without quotes; YAML takes 5e-3 for a text, and 5.0e-3 for a number";
 }
 
 bool contains(const NumberRange& range, double number) {

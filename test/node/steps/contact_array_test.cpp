@@ -209,9 +209,10 @@ TEST(ContactQuery, ARequestWithoutAnswerBecomesAStatus) {
     EXPECT_EQ(answer.contacts.size(), 1u);
     CollisionRequest bad = request;
     bad.radius = -0.25;
-    EXPECT_EQ(query.evaluate(bad, answer), 0.0);
-    EXPECT_EQ(answer.status, ContactArray::INVALID_REQUEST);
-    EXPECT_NE(answer.message.find("-0.25"), std::string::npos) << answer.message;
-    EXPECT_TRUE(answer.contacts.empty());
+    ContactArray refused;
+    EXPECT_EQ(query.evaluate(bad, refused), 0.0);
+    EXPECT_EQ(refused.status, ContactArray::INVALID_REQUEST);
+    EXPECT_NE(refused.message.find("-0.25"), std::string::npos) << refused.message;
+    EXPECT_TRUE(refused.contacts.empty());
   }
 }
