@@ -131,9 +131,10 @@ std::string ply_of_vtk(const MeshText& text, const std::string& content,
   if (!input) throw text.error(concatenate("there is no temporary file: ", std::strerror(errno)));
   std::fwrite(content.data(), 1, content.size(), input.get());
   std::rewind(input.get());
-  // The limit of processor time [s] is that of robot_reader.
-  const std::string command = concatenate("ulimit -t 10; exec /usr/bin/python3 -c '", kVtkScript,
-                                          "' ", ending, " <&", fileno(input.get()), " 2>/dev/null");
+  // The limits of processor time [s] and memory [KiB] are those of robot_reader.
+  const std::string command =
+      concatenate("ulimit -t 10; ulimit -v 2097152; exec /usr/bin/python3 -c '", kVtkScript, "' ",
+                  ending, " <&", fileno(input.get()), " 2>/dev/null");
   std::FILE* const output = popen(command.c_str(), "r");
   if (!output) throw text.error(concatenate("python3 cannot run: ", std::strerror(errno)));
   std::string ply;
