@@ -134,14 +134,15 @@ class DemoReport:
 
 
 def report(node, haptic_node, seconds):
-    """Reports for `seconds`, or until Ctrl-C if that is 0. Returns what print_summary() returns."""
+    """Reports for `seconds`, or until Ctrl-C if that is 0. Returns what print_summary() returns, and whether there was
+    a Ctrl-C."""
     def wait(since, patience):
         time.sleep(0.02)
         if time.monotonic() > since + patience:
             raise RuntimeError(node + ' does not answer')
 
     demo = DemoReport(node, haptic_node)
-    start, since_start, last_line = time.monotonic(), 0.0, 0.0
+    start, since_start, last_line, is_interrupted = time.monotonic(), 0.0, 0.0, False
     try:
         while demo.last_answer is None:
             wait(start, FIRST_PATIENCE)
@@ -154,9 +155,9 @@ def report(node, haptic_node, seconds):
                     demo.print_line(since_start, since_start - last_line)
                 last_line = since_start
     except KeyboardInterrupt:
-        pass
+        is_interrupted = True
     with demo.lock:
-        return demo.print_summary(since_start)
+        return demo.print_summary(since_start), is_interrupted
 
 
 def main():
@@ -164,11 +165,12 @@ def main():
                             formatter_class=argparse.RawDescriptionHelpFormatter).parse_args(rospy.myargv()[1:])
     # Without rospy's signal handler: Ctrl-C ends the report, and then the summary is printed.
     rospy.init_node('demo_report', disable_signals=True)
-    has_answers = report(rospy.get_param('~collision_node', '/organ_collision'),
-                         rospy.get_param('~haptic_node', '/haptic_proxy'), float(rospy.get_param('~seconds', 0.0)))
+    has_answers, is_interrupted = report(rospy.get_param('~collision_node', '/organ_collision'),
+                                         rospy.get_param('~haptic_node', '/haptic_proxy'),
+                                         float(rospy.get_param('~seconds', 0.0)))
     if not has_answers:
         sys.exit(1)
-    if rospy.get_param('~ends_launch', False):
+    if rospy.get_param('~ends_launch', False) and not is_interrupted:
         # Ends roslaunch, which has started this program, as Ctrl-C does. If this program ended first, roslaunch would
         # report the death of a required node as an error.
         os.kill(os.getppid(), signal.SIGINT)

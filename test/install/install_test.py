@@ -109,7 +109,8 @@ class InstallTest(unittest.TestCase):
     def test_rosrun_finds_each_program(self):
         """In a shell that has loaded only one space. Modules that a script imports from its own folder are no programs:
         they may not be executed."""
-        sources = [os.path.join(SOURCE, 'scripts' if name in ('demo_report.py', 'view.py') else 'examples', name) for name in SCRIPTS]
+        own = ('demo_report.py', 'view.py')
+        sources = [os.path.join(SOURCE, 'scripts' if name in own else 'examples', name) for name in SCRIPTS]
         built = [os.path.join(DEVEL, 'lib/organ_collision', name) for name in PROGRAMS]
         installed = [path for path in glob.glob(os.path.join(self.prefix, 'lib/organ_collision/*'))
                      if os.access(path, os.X_OK)]
