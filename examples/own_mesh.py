@@ -50,14 +50,15 @@ def describe(vertices, faces):
 
 
 last_line = None
+started = None  # Since this stamp, the organ is here, and the probe is where this program has it.
 
 
 def show(answer):
     global last_line
     if answer.status != ContactArray.OK:
         return rospy.logwarn_throttle(1, answer.message)
-    if answer.step_start < started:
-        return  # The step begins where another program left the probe, perhaps far away.
+    if not started or answer.step_start < started:
+        return  # The step begins where another program left the probe, perhaps far away, or on the way from there.
     contacts = contact_table(answer)
     contacts = contacts[contacts.touching]  # The probe has left the others again.
     if len(contacts) > 0:
@@ -74,14 +75,15 @@ def main():
     vertices, faces = read_mesh(options.file or KIDNEY, options.scale, options.lps)
     describe(vertices, faces)
     rospy.init_node('own_mesh')
-    started = rospy.Time.now()
     rospy.Subscriber('/organ_collision/contacts', ContactArray, show)
     frames = tf2_ros.TransformBroadcaster()
     organ = Organ('organ', vertices, faces, options.frame)
     top = vertices[vertices[:, 2].argmax()]
 
     def dip(_):
+        global started
         now = rospy.Time.now()
+        started = started or now
         tip = top + [0, 0, 0.005 + 0.004 * math.cos(now.to_sec())]  # The probe has a radius of 0.005 m.
         try:
             frames.sendTransform([frame('probe_trocar', now, top + [0, 0, 0.1]), frame('probe_tip', now, tip)])
@@ -90,7 +92,9 @@ def main():
             pass
 
     # In a thread of its own: rospy deadlocks if Ctrl-C finds the main thread in a publish.
-    if not options.rest:
+    if options.rest:
+        started = rospy.Time.now()
+    else:
         rospy.Timer(rospy.Duration(0.05), dip)
     rospy.spin()
 
