@@ -6,6 +6,7 @@ import argparse
 import math
 import os
 import sys
+import time
 
 from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
 from organ_collision import contact_table, MeshFileError, Organ, read_mesh
@@ -77,7 +78,10 @@ def main():
     rospy.init_node('own_mesh')
     rospy.Subscriber('/organ_collision/contacts', ContactArray, show)
     frames = tf2_ros.TransformBroadcaster()
-    organ = None
+    # Frames that are sent before the node listens are lost, and it would wait for those of the organ's stamp.
+    while not options.rest and frames.pub_tf.get_num_connections() == 0 and not rospy.is_shutdown():
+        time.sleep(0.05)
+    organ = Organ('organ', vertices, faces, options.frame)
     top = vertices[vertices[:, 2].argmax()]
 
     def dip(_):
@@ -87,21 +91,15 @@ def main():
         tip = top + [0, 0, 0.005 + 0.004 * math.cos(now.to_sec())]  # The probe has a radius of 0.005 m.
         try:
             frames.sendTransform([frame('probe_trocar', now, top + [0, 0, 0.1]), frame('probe_tip', now, tip)])
-            if organ:
-                organ.move(vertices, now)
+            organ.move(vertices, now)
         except rospy.ROSException:  # The node ends, and rospy has closed a topic during a publish.
             pass
 
     # In a thread of its own: rospy deadlocks if Ctrl-C finds the main thread in a publish.
-    # The frames come first: the node waits for those of the organ's stamp.
     if options.rest:
         started = rospy.Time.now()
     else:
         rospy.Timer(rospy.Duration(0.05), dip)
-        while frames.pub_tf.get_num_connections() == 0 and not rospy.is_shutdown():
-            rospy.sleep(0.05)
-        rospy.sleep(0.2)
-    organ = Organ('organ', vertices, faces, options.frame)
     rospy.spin()
 
 try:
