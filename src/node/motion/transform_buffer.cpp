@@ -14,6 +14,9 @@ namespace organ_collision {
 
 namespace {
 
+/// [parents] How many recent parents of a frame are kept. A frame rarely changes its parent, for
+/// example when an instrument is handed over.
+constexpr std::size_t kMostParents = 8;
 /// [stamps] How many stamps of a frame are kept: those of the 10 s that TF keeps, at 1 kHz.
 constexpr std::size_t kMostStamps = 10'000;
 
@@ -87,7 +90,10 @@ bool TransformBuffer::add(const geometry_msgs::TransformStamped& transform,
     note(frame, stamp);
     latest_ = std::max(latest_, stamp);
   }
-  frame.parent = &parent;
+  frame.parents.erase(std::remove(frame.parents.begin(), frame.parents.end(), &parent),
+                      frame.parents.end());
+  frame.parents.push_back(&parent);
+  if (frame.parents.size() > kMostParents) frame.parents.erase(frame.parents.begin());
   return true;
 }
 
@@ -130,7 +136,7 @@ bool TransformBuffer::has(const std::string& frame, ros::Time stamp) const {
 
 void TransformBuffer::clear() {
   BufferCore::clear();
-  for (auto& [name, frame] : frames_) frame = {name, frame.parent};
+  for (auto& [name, frame] : frames_) frame = {name, std::move(frame.parents)};
   latest_ = ros::Time();
   disproved_ = 0;
   has_stepped_back_ = false;
@@ -181,7 +187,7 @@ bool TransformBuffer::has_heard(const std::string& frame) const {
 }
 
 std::string TransformBuffer::carrier(const std::string& frame) const {
-  for (const Frame* const above : upward(frame)) {
+  for (const Frame* const above : upward(frame, 1)) {
     if (!above->heard.isZero()) return above->name;
   }
   return "";
@@ -213,9 +219,9 @@ void TransformBuffer::set_answered(const std::string& target, const Frames& sour
 std::optional<LastTransform> TransformBuffer::oldest_transform(const std::string& frame,
                                                                const Frames& others) const {
   std::vector<Nodes> above_others;
-  for (const std::string& other : others) above_others.push_back(upward(other));
+  for (const std::string& other : others) above_others.push_back(upward(other, 1));
   std::optional<LastTransform> oldest;
-  for (const Frame* const above : upward(frame)) {
+  for (const Frame* const above : upward(frame, 1)) {
     const bool carries_all =
         std::all_of(above_others.begin(), above_others.end(),
                     [&](const Nodes& frames) { return contains(frames, above); });
@@ -232,28 +238,35 @@ const TransformBuffer::Frame* TransformBuffer::find(const std::string& frame) co
   return known == frames_.end() ? nullptr : &known->second;
 }
 
-/// The frames whose transforms determine the poses of `sources` in the target frame.
+/// The frames whose transforms determine the poses of `sources` in the target frame. If one of
+/// these frames changed its parent recently, further frames above it may be included.
 TransformBuffer::Nodes TransformBuffer::chain(const std::string& target,
                                               const Frames& sources) const {
-  const Nodes above_target = upward(target);
+  const Nodes above_target = upward(target, kMostParents);
   Nodes found;
   for (const std::string& source : sources) {
-    const Nodes above_source = upward(source);
-    for (const Frame* const frame : above_source) {
-      if (!contains(above_target, frame)) insert(found, frame);
-    }
-    for (const Frame* const frame : above_target) {
-      if (!contains(above_source, frame)) insert(found, frame);
+    const Nodes above_source = upward(source, kMostParents);
+    Nodes all = above_source;
+    for (const Frame* const frame : above_target) insert(all, frame);
+    const bool is_tree = std::all_of(all.begin(), all.end(),
+                                     [](const Frame* frame) { return frame->parents.size() <= 1; });
+    for (const Frame* const frame : all) {
+      const bool is_above_both = contains(above_source, frame) && contains(above_target, frame);
+      if (!is_tree || !is_above_both) insert(found, frame);
     }
   }
   return found;
 }
 
-/// The frame and all frames above it, each once.
-TransformBuffer::Nodes TransformBuffer::upward(const std::string& frame) const {
+/// The frame and all its ancestors, each once, through at most `most` recent parents of each frame.
+TransformBuffer::Nodes TransformBuffer::upward(const std::string& frame, std::size_t most) const {
   Nodes found;
-  const Frame* next = find(frame);
-  for (; next && !contains(found, next); next = next->parent) found.push_back(next);
+  if (const Frame* const known = find(frame)) found = {known};
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const Nodes& parents = found[i]->parents;
+    const std::size_t first = parents.size() - std::min(most, parents.size());
+    for (std::size_t k = first; k < parents.size(); ++k) insert(found, parents[k]);
+  }
   return found;
 }
 

@@ -100,7 +100,7 @@ class TransformBuffer : public tf2::BufferCore {
   /// The record of a frame. A stamp that there is not is zero.
   struct Frame {
     std::string name = {};
-    const Frame* parent = nullptr;      ///< that of the last transform
+    Nodes parents = {};                 ///< recent parents, the latest at the end
     std::deque<ros::Time> stamps = {};  ///< stamps of recent transforms, in rising order
     ros::Time heard = {};               ///< the stamp that came last
     ros::Time received = {};            ///< when it came, by the node's own clock
@@ -114,7 +114,7 @@ class TransformBuffer : public tf2::BufferCore {
   void judge(Frame& frame, ros::Time stamp);
   void note(Frame& frame, ros::Time stamp);
   Nodes chain(const std::string& target, const Frames& sources) const;
-  Nodes upward(const std::string& frame) const;
+  Nodes upward(const std::string& frame, std::size_t most) const;
 
   std::map<std::string, Frame> frames_;          ///< by name; the addresses of frames do not change
   std::map<std::string, std::string> refusals_;  ///< why the last pose was refused, by frame

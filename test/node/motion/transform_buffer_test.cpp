@@ -54,7 +54,7 @@ TEST_F(TransformBufferTest, StampsOfAllFramesInBetweenRiseEachOnce) {
   EXPECT_TRUE(stamps({"nowhere"}).empty());
 }
 
-TEST_F(TransformBufferTest, WhatIsAboveBothDoesNotCount) {
+TEST_F(TransformBufferTest, EveryParentThatAFrameHadCountsUnlessItIsAboveBoth) {
   send("world", "table", 1.0);
   send("table", "liver", 2.0);
   send("table", "left", 3.0);
@@ -63,7 +63,7 @@ TEST_F(TransformBufferTest, WhatIsAboveBothDoesNotCount) {
   send("world", "right", 5.0);
   send("right", "needle", 6.0);
   send("liver", "needle", 7.0);
-  EXPECT_EQ(stamps({"needle"}), (Seconds{4.0, 6.0, 7.0})) << "it is handed over to the liver";
+  EXPECT_EQ(stamps({"needle"}), (Seconds{1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0}));
 }
 
 TEST_F(TransformBufferTest, LoopsAndCrowdsOfParentsEnd) {
