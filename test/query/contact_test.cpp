@@ -264,6 +264,30 @@ TEST(Contact, PiercedEitherWayTakesTheNormalWithAPositiveFirstComponent) {
   }
 }
 
+TEST(Contact, OfDegenerateFacesIsAtRightAnglesToAxisAndLongestEdge) {
+  const ShaftAxis axis{{0.1, 0.2, 0.5}, {0.1, 0.2, 0.0}};
+  const Vector3d a(0.0, 0.2, 0.1), b(0.3, 0.2, 0.1), c(0.15, 0.2, 0.1), p(0.1, 0.2, 0.3);
+  for (const Triangle& face : {Triangle{a, b, b}, Triangle{b, c, a}, Triangle{c, b, a}}) {
+    const FaceContact contact = at_rest(axis, face);
+    EXPECT_TRUE(contact.normal.isApprox(Vector3d(0.0, 1.0, 0.0), 1e-12));
+    EXPECT_NEAR(contact.depth, kShaftRadius, 1e-14);
+    EXPECT_FALSE(contact.behind);
+  }
+  EXPECT_NEAR(at_rest(axis, {p, p, p}).normal.norm(), 1.0, 1e-14);
+  EXPECT_NEAR(at_rest(axis, {p, p, p}).normal.z(), 0.0, 1e-14);
+}
+
+TEST(Contact, OfDegenerateFacesInsideALinkHasADirection) {
+  const Vector3d a(0.01, 0.0, 0.0), b(0.02, 0.01, 0.0), c(0.03, 0.02, 0.0);
+  for (const Triangle& face : {Triangle{a, b, b}, Triangle{a, b, c}, Triangle{a, a, a}}) {
+    const FaceContact contact = at_rest(Link{"jaw", {kCube}}, face);
+    EXPECT_NEAR(contact.normal.norm(), 1.0, 1e-14);
+    EXPECT_NEAR(contact.normal.dot(face[1] - face[0]), 0.0, 1e-15);
+    EXPECT_GT(contact.depth, 0.0);
+    EXPECT_FALSE(contact.behind);
+  }
+}
+
 // Because of the rod on the cube, the link would have to move farther downward than upward.
 TEST(Contact, PiercedLeavesWithTheWholeLink) {
   Isometry3d above = kOrigin;
