@@ -120,9 +120,8 @@ TEST(MeshFile, DaeWithItsNodesAndUnitButNotItsUpAxis) {
   const auto place = [](const Vector3d& v) {
     return Vector3d(0.010 - 0.001 * v.y(), 0.020 + 0.001 * v.x(), 0.030 + 0.001 * v.z());
   };
-  // The first triangle, and the two halves of the quadrilateral, which has a notch at its first
-  // corner.
-  const std::vector<Triangle> triangles = {{kA, kC, kB}, {kA, kB, kD}, {kB, kC, kD}};
+  // The first triangle, and the two halves of the quadrilateral.
+  const std::vector<Triangle> triangles = {{kA, kC, kB}, {kA, kB, kC}, {kA, kC, kD}};
   for (const std::string name : {"jaw.dae", "jaw_z_up.dae"}) {
     expect_triangles(read_surface(name), triangles, place);
   }

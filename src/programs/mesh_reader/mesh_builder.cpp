@@ -164,8 +164,8 @@ void MeshBuilder::cut(const std::uint32_t* corners, std::size_t count) {
   }
 }
 
-/// The corners of a polygon, without the coordinate along which the polygon has the largest area.
-/// The other two are such that the polygon is counterclockwise.
+/// The corners of a polygon in its plane, seen so that they are counterclockwise. The plane is at
+/// right angles to the sum of the areas of the fan around the first corner.
 std::vector<Vector2d> MeshBuilder::seen_from_above(const std::uint32_t* corners,
                                                    std::size_t count) const {
   const auto place = [&](std::size_t i) {
@@ -175,13 +175,12 @@ std::vector<Vector2d> MeshBuilder::seen_from_above(const std::uint32_t* corners,
   for (std::size_t i = 2; i < count; ++i) {
     normal += (place(i - 1) - place(0)).cross(place(i) - place(0));
   }
-  Eigen::Index axis = 0;
-  normal.cwiseAbs().maxCoeff(&axis);
-  Eigen::Index x = (axis + 1) % 3, y = (axis + 2) % 3;
-  if (normal[axis] < 0.0) std::swap(x, y);
+  if (normal.isZero(0.0)) normal = Vector3d::UnitZ();  // The polygon has no area.
+  const Vector3d x = normal.unitOrthogonal(), y = normal.normalized().cross(x);
   std::vector<Vector2d> points;
   for (std::size_t i = 0; i < count; ++i) {
-    points.emplace_back(place(i)[x], place(i)[y]);
+    const Vector3d from_first = place(i) - place(0);
+    points.emplace_back(x.dot(from_first), y.dot(from_first));
   }
   return points;
 }
