@@ -33,6 +33,12 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
+std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  if (text.substr(0, kMark.size()) == kMark) text.remove_prefix(kMark.size());
+  return text;
+}
+
 void split_words(std::string_view line, std::vector<std::string_view>& words) {
   words.clear();
   for (line = trimmed(line); !line.empty(); line = trimmed(line)) {

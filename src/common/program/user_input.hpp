@@ -31,6 +31,9 @@ std::string in_quotes(std::string_view text);
 /// `text` without the blanks (space, tab, carriage return) around it.
 std::string_view trimmed(std::string_view text);
 
+/// `text` without the byte order mark of UTF-8 at its beginning, if there is one.
+std::string_view without_byte_order_mark(std::string_view text);
+
 /// Replaces `words` by those of `line`, which are separated by blanks.
 void split_words(std::string_view line, std::vector<std::string_view>& words);
 

@@ -1,21 +1,17 @@
 #include "mesh_text.hpp"
 
 #include <algorithm>
-#include <boost/algorithm/string/predicate.hpp>
 #include <utility>
 
 #include "geometry/concatenate.hpp"
 
 namespace organ_collision {
-namespace {
-
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-
-}  // namespace
 
 MeshText::MeshText(std::string file, std::string_view content, char comment, bool continues)
-    : file_(std::move(file)), content_(content), comment_(comment), continues_(continues) {
-  if (boost::starts_with(content_, kByteOrderMark)) content_.remove_prefix(kByteOrderMark.size());
+    : file_(std::move(file)),
+      content_(without_byte_order_mark(content)),
+      comment_(comment),
+      continues_(continues) {
   const std::size_t end = content_.find_first_of("\r\n");
   has_lone_returns_ =
       end != std::string_view::npos && content_[end] == '\r' && content_.substr(end, 2) != "\r\n";

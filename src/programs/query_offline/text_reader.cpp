@@ -13,7 +13,6 @@ namespace {
 
 constexpr std::size_t kPiece = 1 << 16;  // [bytes] read at once, at most
 constexpr int kForEver = -1;
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 }  // namespace
 
@@ -47,8 +46,7 @@ bool TextReader::find_line(bool waits) {
       continue;
     }
     line_ = std::string_view(buffer_).substr(begin_, end_ - begin_);
-    const bool is_marked = line_.substr(0, kByteOrderMark.size()) == kByteOrderMark;
-    if (number_ == 0 && is_marked) line_.remove_prefix(kByteOrderMark.size());
+    if (number_ == 0) line_ = without_byte_order_mark(line_);
     line_ = trimmed(line_);
     if (!line_.empty() || begin_ == buffer_.size()) return true;
     go_behind_line();
