@@ -47,7 +47,7 @@ std::vector<Place> places_of(const ProxyAnswer& answer, const std::vector<ProxyO
 /// The force at the tip of a shaft that comes from a force at a point of the tool. The tool is a
 /// lever about its trocar. Along the axis, the force acts in full.
 Vector3d at_tip(const FaceForce& at, const ShaftAxis& axis) {
-  const Vector3d along = axis.tip - axis.trocar;
+  const Vector3d along = axis.along();
   if (along.norm() < kShortestLever) return at.force;
   return at.force + (at.place - axis.tip).cross(at.force).cross(along) / along.squaredNorm();
 }

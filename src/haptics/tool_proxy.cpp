@@ -16,7 +16,7 @@ geometry_msgs::Pose pose_of(const ToolParameters& tool, const ToolPose& pose) {
   if (!tool.has_shaft()) return tf2::toMsg(pose.links.front());
   Eigen::Isometry3d tip = Eigen::Isometry3d::Identity();
   tip.translation() = pose.axis.tip;
-  const Vector3d along = pose.axis.tip - pose.axis.trocar;  // Zero for a ball.
+  const Vector3d along = pose.axis.along();  // Zero for a ball.
   if (!along.isZero(0.0)) {
     tip.linear() = least_rotation(Vector3d::UnitZ(), along).toRotationMatrix();
   }

@@ -50,7 +50,7 @@ bool first_nonzero_is_positive(const Vector3d& v) {
 /// The contact's normal if the axis of a shaft pierces the face: the face's own normal, with the
 /// sign for which normal · (tip - trocar) >= 0. See doc/theory/geometry.md, Ties and piercing.
 Vector3d piercing_normal(const ShaftAxis& axis, const Triangle& face) {
-  const Vector3d direction = axis.tip - axis.trocar;
+  const Vector3d direction = axis.along();
   Vector3d normal = face_normal(face);
   if (normal.isZero(0.0)) normal = perpendicular(direction, longest_edge(face));
   const double along = normal.dot(direction);

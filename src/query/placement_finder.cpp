@@ -25,7 +25,7 @@ double picking_radius(const AlignedBox3d& box) {
 /// The part of an axis within a box, or nothing. The box has a margin around the organ that is far
 /// larger than the rounding errors.
 std::optional<ShaftAxis> clip(const ShaftAxis& axis, const AlignedBox3d& box) {
-  const Vector3d along = axis.tip - axis.trocar;
+  const Vector3d along = axis.along();
   double begin = 0.0, end = 1.0;
   for (Eigen::Index i = 0; i < 3; ++i) {
     const double low = box.min()[i] - axis.trocar[i], high = box.max()[i] - axis.trocar[i];
@@ -112,7 +112,7 @@ void PlacementFinder::find_axis(const Surface& surface, const ShaftAxis& axis,
   placement.tip = side(is_tip_on, trocar_winding + change);
   placement.length_known = true;
   placement.length_inside =
-      share_inside(placement.crossings, trocar_winding) * (axis.tip - axis.trocar).stableNorm();
+      share_inside(placement.crossings, trocar_winding) * axis.along().stableNorm();
 }
 
 /// Replaces candidates_ by the faces that may meet `axis`.

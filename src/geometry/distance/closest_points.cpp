@@ -38,7 +38,7 @@ class NearestPair {
   };
 
   NearestPair(const ShaftAxis& axis, const Triangle& face)
-      : axis_(axis.tip - axis.trocar),
+      : axis_(axis.along()),
         face_{face[0] - axis.trocar, face[1] - axis.trocar, face[2] - axis.trocar},
         is_beside_(is_beside()) {
     consider_inside();

@@ -27,7 +27,7 @@ Vector3d unit_or(const Vector3d& vector, const Vector3d& otherwise) {
 /// The axes of box_around(): orthonormal columns, right-handed.
 Eigen::Matrix3d axes_of(const ShaftMotion& motion) {
   const ShaftAxis middle = motion.at(0.5);
-  const Vector3d along = unit_or(middle.tip - middle.trocar, Vector3d::UnitX());
+  const Vector3d along = unit_or(middle.along(), Vector3d::UnitX());
   const Vector3d step = motion.end.tip - motion.start.tip;
   // Removes the component along the axis twice: the first time leaves a rounding error.
   Vector3d across = unit_or(step - along.dot(step) * along, along.unitOrthogonal());

@@ -184,7 +184,7 @@ Eigen::Vector3d crossing_shift(const Triangle& face, const ShaftAxis& axis) {
       cross(grid.difference(face[0], face[1]), grid.difference(face[0], face[2]));
   const ExactInteger divisor = dot(normal, along);
   Eigen::Index longest;
-  (axis.tip - axis.trocar).cwiseAbs().maxCoeff(&longest);
+  axis.along().cwiseAbs().maxCoeff(&longest);
   const ExactInteger length = divisor.sign() * abs(along[longest]);
   Eigen::Vector3d shift;
   for (std::size_t i = 0; i < 3; ++i) shift[i] = -ratio(normal[i] * length, abs(divisor));

@@ -138,7 +138,7 @@ void add_crossings(const SceneOrgan& organ, const ShaftAxis& axis, double radius
   // An arrow that is nearly all head is a cone. RViz warns of an arrow without a shaft.
   const ArrowShape shape{0.01, 2.0 / kLength, 0.999};
   const double length = kLength * std::max(kRadius * radius, kLeastRadius * organ.size());
-  const Vector3d cone = length * (axis.tip - axis.trocar).normalized();
+  const Vector3d cone = length * axis.along().normalized();
   for (std::size_t i = 0; i < std::min(placement.crossings.size(), kMostCrossings); ++i) {
     const bool enters = placement.crossings[i].direction > 0;
     const Vector3d point = to_eigen(placement.crossings[i].point);

@@ -167,7 +167,7 @@ Marker ball(const MarkerStyle& style, const Vector3d& center, double radius) {
 
 /// A flat-ended cylinder around an axis.
 Marker cylinder(const MarkerStyle& style, const ShaftAxis& axis, double radius) {
-  const Vector3d along = axis.tip - axis.trocar;
+  const Vector3d along = axis.along();
   Isometry3d pose(Eigen::Translation3d(axis.at(0.5)));
   if (!along.isZero(0.0)) {
     pose.rotate(least_rotation(Vector3d::UnitZ(), along));

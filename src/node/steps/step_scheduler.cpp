@@ -306,7 +306,7 @@ ToolStep StepScheduler::begin_step(const DeformableOrgan& organ, std::size_t too
   question.asked.max_near = static_cast<std::size_t>(parameters.max_near);
   question.asked.placement = parameters_.publish_placement;
   question.set_organ(organ, pair.current);
-  question.wait_for_surface({});
+  question.wait_for_surface({});  // It takes the surface if it is known, and does not wait.
   const bool has_last = pair.last && has_same_faces(*pair.last, *pair.current.mesh);
   if (has_last) step.last_answer = pair.last->answer;
   if (!parameters_.organ_motion) return step;

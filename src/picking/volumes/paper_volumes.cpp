@@ -45,7 +45,7 @@ struct Hexahedron {
 // Follows section 4 of the paper. Returns nothing if the tip rests, or if the trocar lies on the
 // line through the tips.
 std::optional<Hexahedron> hexahedron(const ShaftMotion& motion, double radius) {
-  const Vector3d previous = motion.start.tip - motion.start.trocar;
+  const Vector3d previous = motion.start.along();
   const Vector3d current = motion.end.tip - motion.start.trocar;
   const double length = std::max(previous.norm(), current.norm());
   check_size(length, radius);
@@ -69,7 +69,7 @@ ViewingVolume static_to_farther_tip(const ShaftMotion& motion, double radius) {
 }  // namespace
 
 ViewingVolume paper_static_volume(const ShaftAxis& axis, double radius) {
-  const Vector3d view = axis.tip - axis.trocar;
+  const Vector3d view = axis.along();
   check_size(view.norm(), radius);
   return ViewingVolume::orthographic({axis.trocar, Vector3d::Zero(), camera_axes(view), -radius,
                                       radius, -radius, radius, 0, view.norm()});

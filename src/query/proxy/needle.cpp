@@ -56,7 +56,7 @@ Needle::Fate Needle::follow(const ShaftAxis& hand, const std::vector<ProxyOrgan>
   const Vector3d direction = to_entry.normalized();
   const double entry = to_entry.norm();
   if (!(entry > kShortestLever * hand.along().norm())) return Fate::kLost;
-  const double hand_tip = direction.dot(hand.tip - hand.trocar);
+  const double hand_tip = direction.dot(hand.along());
   const double wanted =
       std::clamp(entry + inserted_, hand_tip - settings.friction, hand_tip + settings.friction);
   axis_ = {hand.trocar, hand.trocar + wanted * direction};
