@@ -12,6 +12,7 @@ from organ_collision.msg import ContactArray, OrganMesh, ProxyState, VertexForce
 import roslib.packages
 import rospy
 import rostest
+from visualization_msgs.msg import MarkerArray
 import yaml
 
 from support.launch_case import FrameLog, LaunchCase, PACKAGE, files
@@ -32,9 +33,10 @@ def shown_topics(displays):
 
 class LaunchFilesTest(LaunchCase, NodeStarter):
     def test_every_launch_file(self):
+        self.markers = rospy.Publisher('/organ_collision/markers', MarkerArray, queue_size=1)
         checks = {'organ_collision': lambda: self.check_collision_node('/organ_collision'),
                   'nodelet': lambda: self.check_collision_node('/organ_collision', '/organ_collision_manager'),
-                  'demo': self.check_demo, 'view': lambda: None,
+                  'demo': self.check_demo, 'view': self.check_view,
                   'haptic_proxy': lambda: self.check_hands('/haptic_proxy', rospy.get_param('/haptic_proxy/tools')),
                   'organ_mesh_adapter': lambda: self.check_mesh_adapter(rospy.get_param('/organ_mesh_adapter/organs'))}
         self.assertEqual({'launch/%s.launch' % name for name in checks}, files('launch', '.launch'))
@@ -43,6 +45,11 @@ class LaunchFilesTest(LaunchCase, NodeStarter):
                 check()
             if name == 'demo':
                 self.check_report(launched.printed)
+
+    def check_view(self):
+        """The view listens to a publisher that was there before it, so its call that registers the subscriber has
+        ended. It publishes nothing, so it gets no row in FIRST_MESSAGES."""
+        wait_until(lambda: self.markers.get_num_connections() > 0, 'the subscriber of the markers')
 
     def check_hands(self, name, tools):
         """haptic_proxy knows the tools, and they have no organ."""
