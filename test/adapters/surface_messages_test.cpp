@@ -143,6 +143,54 @@ TEST(PointCloudReader, RefusesSizesWhoseBytesOverflow) {
   }
 }
 
+/// The refusals of all messages that can have these points, as multiples of three.
+std::vector<std::string> refusals_of(const std::vector<double>& points) {
+  constexpr std::uint8_t kDouble = PointField::FLOAT64;
+  std::vector<std::string> refusals;
+  pcl_msgs::PolygonMesh polygons;
+  for (const bool big_endian : {false, true}) {
+    for (const std::uint8_t type : {PointField::FLOAT32 + 0, kDouble + 0}) {
+      const CloudLayout layout{{{"z", type}, {"", type}, {"x", type}, {"y", type}}, big_endian, 3};
+      polygons.cloud = cloud_of(points, layout);
+      refusals.push_back(refusal([&] { read_points(polygons.cloud); }));
+      refusals.push_back(refusal([&] { convert(polygons); }));
+    }
+  }
+  shape_msgs::Mesh mesh;
+  for (std::size_t i = 0; i < points.size(); i += 3) {
+    mesh.vertices.push_back(tf2::toMsg(Eigen::Vector3d(&points[i])));
+  }
+  refusals.push_back(refusal([&] { convert(mesh); }));
+  Marker marker;
+  marker.type = Marker::TRIANGLE_LIST;
+  marker.scale = to_vector({1.0, 1.0, 1.0});
+  marker.points = mesh.vertices;
+  refusals.push_back(refusal([&] { MarkerReader().read(marker); }));
+  return refusals;
+}
+
+TEST(MeshConversions, WhatIsNotFiniteAsAFloatIsRefusedWithItsPlace) {
+  const std::vector<double> good = random_points(6, 12);
+  for (const std::string& text : refusals_of(good)) EXPECT_EQ(text, "accepted");
+  for (const double value : {kNan, kInfinity, -kInfinity, 1e39, -3.5e38}) {
+    for (std::size_t place = 0; place < good.size(); ++place) {
+      std::vector<double> points = good;
+      points[place] = value;
+      for (const std::string& text : refusals_of(points)) {
+        expect_words(text, {"not finite: ",
+                            std::string(1, "xyz"[place % 3]) + " of vertex " +
+                                std::to_string(place / 3) + " is ",
+                            "must be finite 32-bit floats"});
+      }
+    }
+  }
+  for (const double value : {3.4e38, -3.4e38, 1e-46}) {
+    std::vector<double> points = good;
+    points[7] = value;
+    for (const std::string& text : refusals_of(points)) EXPECT_EQ(text, "accepted") << value;
+  }
+}
+
 TEST(MeshConversions, TakesAShapeMeshAsItIs) {
   shape_msgs::Mesh mesh;
   for (const Eigen::Vector3d& at :

@@ -10,6 +10,7 @@
 
 #include "demo/liver.hpp"
 #include "examples/fem_block.hpp"
+#include "geometry/distance/closest_points.hpp"
 
 namespace organ_collision {
 namespace {
@@ -134,6 +135,35 @@ TEST_F(LiverTest, HasTheSizeOfALiverAndThePapersNumberOfFaces) {
   }
 }
 
+TEST_F(LiverTest, BreathesAndStaysInShape) {
+  double farthest = 0.0;
+  for (int step = 1; step <= 5 * kStepsPerBreath; ++step) {
+    liver_.step(kStep, {});
+    if (step % 10 == 0) {
+      farthest = std::max(farthest, farthest_from_rest(liver_.vertices(), rest_));
+    }
+    if (step % kStepsPerBreath == 0) {
+      ASSERT_LT(farthest_from_rest(liver_.vertices(), rest_), 5e-4) << "step " << step;
+    }
+  }
+  EXPECT_GT(farthest, 0.005);
+  EXPECT_LT(farthest, 0.009);
+}
+
+TEST_F(LiverTest, GivesWayInTheDirectionOfThePush) {
+  for (const Vector3d& place : {Vector3d(-0.05, 0.0, 0.04), Vector3d(0.07, 0.02, 0.02),
+                                Vector3d(-0.05, -0.06, 0.0), Vector3d(0.07, 0.02, -0.01)}) {
+    LiverSoftBody unpushed(surface_), pushed(surface_);
+    const std::uint32_t at = vertex_nearest(rest_, place);
+    const Vector3d displacement(0.001, -0.002, place.z() > 0.01 ? -0.003 : 0.003);
+    unpushed.step(kStep, {{7, Vector3d::Zero()}});  // It changes nothing.
+    pushed.step(kStep, {{at, displacement}});
+    const Vector3d moved = vertex(pushed.vertices(), at) - vertex(unpushed.vertices(), at);
+    EXPECT_GT(moved.dot(displacement), 0.2 * displacement.squaredNorm()) << place.transpose();
+    EXPECT_GT(moved.dot(displacement), 0.8 * moved.norm() * displacement.norm());
+  }
+}
+
 TEST_F(LiverTest, SurvivesViolenceAndReturnsToItsShape) {
   // Pushes all faces at once, near one corner, back and forth, as far as the simulator ever does.
   for (int step = 0; step < 500; ++step) {
@@ -201,6 +231,46 @@ TEST_F(LiverTest, WhatACutLeavesMovesOn) {
     ASSERT_LT(farthest_from_rest(liver_.vertices(), rest), 0.02) << "step " << step;
   }
   EXPECT_LT(farthest_from_rest(liver_.vertices(), rest), 4e-3);
+}
+
+/// [m] The distance from the axis to the liver at rest.
+double distance_to(const ClosedSurface& liver, const ShaftAxis& axis) {
+  double nearest = 1.0;
+  for (std::size_t face = 0; face < liver.faces.size(); ++face) {
+    nearest = std::min(nearest, closest_points(axis, liver.triangle(face)).distance);
+  }
+  return nearest;
+}
+
+TEST_F(LiverTest, ThePalpatorIsSlowAndPressesAndLifts) {
+  EXPECT_GT(liver_level(kPalpator.trocar), 0.03);
+  int pressing = 0, lifted = 0;
+  double deepest = 0.0;
+  for (double time = 0.0; time < 30.0; time += 0.1) {
+    const double speed = (kPalpator.tip(time + kStep) - kPalpator.tip(time)).norm() / kStep;
+    EXPECT_LT(speed, 0.06) << "[m/s] at " << time << " s";
+    (distance_to(surface_, kPalpator.at(time)) < kToolRadius ? pressing : lifted) += 1;
+    deepest = std::min(deepest, liver_level(kPalpator.tip(time)));
+  }
+  // The hand presses deeper than the tissue yields, so one sees it apart from its proxy.
+  EXPECT_LT(deepest, -0.010);
+  EXPECT_GT(pressing, 100);
+  EXPECT_GT(lifted, 50);
+}
+
+TEST_F(LiverTest, TheStabberPassesThroughTheLobeWithinOneStepAndRestsOutside) {
+  static_assert(kStabDuration <= kStep);
+  EXPECT_GT(liver_level(kStabber.trocar), 0.03);
+  constexpr double kBreath = 0.007;  // [m] motion of the liver by breathing
+  for (int second = 0; second < 14; ++second) {
+    for (double time = second + kStep; time < second + 1.0001; time += 0.031) {
+      EXPECT_GT(distance_to(surface_, kStabber.at(time)), kToolRadius + kBreath)
+          << "at " << time << " s a static test would find it";
+    }
+    const double halfway = second + 1.0 + 0.5 * kStabDuration;
+    EXPECT_LT(distance_to(surface_, kStabber.at(halfway)), 1e-9) << "at " << halfway << " s";
+    EXPECT_LT(liver_level(kStabber.tip(halfway)), 0.0) << "its tip is inside the lobe";
+  }
 }
 
 }  // namespace

@@ -73,6 +73,15 @@ class ProxyForcesTest : public testing::Test {
 
 }  // namespace
 
+TEST_F(ProxyForcesTest, AProxyWithoutContactsIsHeldByNothing) {
+  answer_.pull = random_vector(0.01);
+  answer_.twist = random_vector(1e-4);
+  for (const OrganForce& of_organ : forces(ProxyFreedom::kFree, random_vector(1.0))) {
+    EXPECT_TRUE(of_organ.is_zero());
+    EXPECT_EQ(of_organ.topology, 5U);
+  }
+}
+
 TEST_F(ProxyForcesTest, OnAFreeToolTheyAreTheSumsOverTheFaces) {
   for (int trial = 0; trial < 100; ++trial) {
     answer_.contacts = {contact(0, 0.003, random_vector(1.0).normalized()),

@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <boost/make_shared.hpp>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
+#include <string>
 
 #include "common/messages/conversions.hpp"
 #include "common/messages/failure_log.hpp"
@@ -115,6 +117,62 @@ TEST_F(ToolProxyTest, WithoutAnAnswerTheForceFadesAndComesBack) {
   EXPECT_FALSE(proxy.is_fading());
 }
 
+/// What makes a force jump, on a tool that presses with `whole` newtons.
+TEST_F(ToolProxyTest, NoEventMakesTheForceChangeFasterThanItsLimit) {
+  const struct {
+    const char* name;
+    std::function<void()> happens;
+    double height;  ///< [m] of the hand from then on
+    bool is_free;   ///< then
+  } events[] = {
+      {"the hand jumps", [] {}, 0.2, true},
+      {"the stiffness changes", [&] { parameters_.stiffness = 3000.0; }, -0.01, false},
+      {"the organ's frame jumps", [&] { scene_.organs[0].T_organ_proxy.translation().z() = 0.1; },
+       -0.01, true},
+      {"the organ is removed", [&] { scene_.organs.clear(), scene_.sources.clear(); }, -0.01, true},
+      {"the hand slips far along the tissue", [] {}, -0.011, false},
+  };
+  for (const auto& event : events) {
+    SCOPED_TRACE(event.name);
+    const HapticProxyParameters before = parameters_;
+    const ProxyScene scene = scene_;
+    ToolProxy proxy(tool_, parameters_);
+    press(proxy, -0.01);
+    parameters_.max_force_rate = 400.0;
+    double last = spring(-0.01);
+    event.happens();
+    proxy.update_settings();
+    int ticks = 0;
+    bool is_fading = true;
+    for (; is_fading && ticks < 200; ++ticks) {
+      const ProxyReport report = follow(proxy, event.height, 1.0);
+      EXPECT_LE(std::abs(force(report) - last), 0.4 + kTolerance) << "tick " << ticks;
+      last = force(report);
+      is_fading = report.is_fading;
+    }
+    EXPECT_LT(ticks, 200);
+    EXPECT_EQ(last == 0.0, event.is_free) << "not fading, and free, means no force";
+    parameters_ = before;
+    scene_ = scene;
+  }
+}
+
+TEST_F(ToolProxyTest, AForceMovesWithItsFrame) {
+  ToolProxy proxy(tool_, parameters_);
+  press(proxy, -0.01);
+  parameters_.max_force_rate = 100.0;
+  const Eigen::Isometry3d T_new_old =
+      Eigen::Translation3d(1.0, 2.0, 3.0) * Eigen::AngleAxisd(M_PI_2, Vector3d::UnitX());
+  proxy.change_frame("world", T_new_old);
+  const ProxyReport report = lose(proxy, 1.0);
+  EXPECT_EQ(report.frame, "world");
+  const Vector3d expected = T_new_old.linear() * Vector3d(0.0, 0.0, spring(-0.01) - 0.1);
+  EXPECT_LT((force_of(report.forces) - expected).norm(), kTolerance);
+  const Vector3d tip = T_new_old * Vector3d(0.011, -0.007, -0.01);
+  EXPECT_LT((report.center - tip).norm(), 1e-12);
+  EXPECT_LT((report.hand->axis.tip - tip).norm(), 1e-12) << "drivers move the torque to the tip";
+}
+
 TEST_F(ToolProxyTest, ALowerLimitAndTheEndOutrankTheRate) {
   for (const bool ends : {false, true}) {
     ToolProxy proxy(tool_, parameters_);
@@ -146,6 +204,33 @@ TEST_F(ToolProxyTest, WhenTheProxyIsPlacedAnewTheReasonIsTold) {
   const ProxyReport jumped = follow(proxy, 0.2, 1.0);
   EXPECT_TRUE(jumped.answer->is_placed_anew);
   EXPECT_NE(jumped.message, "");
+}
+
+TEST_F(ToolProxyTest, LargeForcesAreClippedWithTheirTorqueAndTheForcesOnTheTissue) {
+  parameters_.max_force = 0.5;
+  ToolProxy proxy(tool_, parameters_);
+  press(proxy, -0.02);
+  const ProxyReport report = follow(proxy, -0.02);
+  EXPECT_STREQ(report.clipped_by, "max_force");
+  EXPECT_NEAR(force(report), 0.5, 1e-9);
+  EXPECT_TRUE(torque_of(report.forces).isZero(0.0));
+  EXPECT_NEAR(report.forces[0].on_faces[0].force.z(), 0.5, kTolerance);
+  for (int tick = 0; tick < 5; ++tick) follow(proxy, 0.02);
+  EXPECT_EQ(follow(proxy, 0.02).clipped_by, nullptr);
+}
+
+TEST_F(ToolProxyTest, TheTorqueOnAFreeToolIsClippedWithTheForce) {
+  tool_.parameters.freedom = ProxyFreedom::kFree;
+  parameters_.max_torque = 0.05;
+  ToolProxy proxy(tool_, parameters_);
+  press(proxy, -0.02);
+  const ProxyReport report = follow(proxy, -0.02);
+  ASSERT_STREQ(report.clipped_by, "max_torque");
+  const ProxyAnswer& answer = *report.answer;
+  EXPECT_NEAR(torque_of(report.forces).norm(), 0.05, 1e-9);
+  const double share = 0.05 / (parameters_.stiffness * answer.twist.norm());
+  const Vector3d force = share * parameters_.stiffness * answer.pull;
+  EXPECT_LT((force_of(report.forces) - force).norm(), 1e-3);
 }
 
 TEST_F(ToolProxyTest, IfTheProxyHasNoPlaceThereIsNoAnswerAndTheForceFades) {
@@ -276,6 +361,25 @@ class RisingTissueTest : public ToolProxyTest {
   OrganInterpolation shapes_;
   TransformBuffer transforms_;
 };
+
+TEST_F(RisingTissueTest, InterpolatedMovesTheHandInSmallSteps) {
+  for (const bool interpolates : {false, true}) {
+    ToolProxy proxy(tool_, parameters_);
+    begin();
+    double last = 0.0, greatest = 0.0;
+    for (int tick = 0; tick < 400; ++tick) {
+      const ProxyReport report = follow_in_tissue(proxy, tick, 0.0, interpolates);
+      if (tick > 200) greatest = std::max(greatest, std::abs(force(report) - last));
+      last = force(report);
+    }
+    EXPECT_GT(last, 1.0) << "the tissue presses";
+    if (interpolates) {
+      EXPECT_LT(greatest, 0.016);
+    } else {
+      EXPECT_GT(greatest, 0.14);
+    }
+  }
+}
 
 // Also between shapes, against a hand that rests, goes with the tissue, or comes towards it.
 TEST_F(RisingTissueTest, IsDampedByItsSpeedRelativeToTheHand) {

@@ -297,9 +297,8 @@ class Episode {
 TEST(Wrenches, KeepTheirLimitsAndAgreeWithTheForcesOnTissueInEachMessage) {
   ros::Time::init();
   Random random(47);
-  int fading = 0;
   for (const std::string& kind : oracle::proxy_scene_kinds()) {
-    int pressing = 0;
+    int pressing = 0, fading = 0;
     for (int episode = 0; episode < 20; ++episode) {
       SCOPED_TRACE(kind + ", episode " + std::to_string(episode));
       Episode run(kind, random);
@@ -309,8 +308,8 @@ TEST(Wrenches, KeepTheirLimitsAndAgreeWithTheForcesOnTissueInEachMessage) {
       fading += run.fading;
     }
     EXPECT_GT(pressing, 50) << kind;
+    EXPECT_GT(fading, 50) << kind;
   }
-  EXPECT_GT(fading, 1000);
 }
 
 }  // namespace

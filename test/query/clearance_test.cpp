@@ -131,6 +131,26 @@ TEST(Clearance, ClosesAsFastAsTheDistanceShrinksAtTheEnd) {
   EXPECT_GT(greatest, 0.02);
 }
 
+// All numbers are short, so that nothing is rounded.
+TEST(Clearance, AboveAVertexTellsTheFirstOfItsFaces) {
+  CollisionQuery query(PickerKind::kCpu);
+  CollisionResult result;
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    GridSurface grid = grid_surface(2);
+    for (std::size_t i = 2; i < grid.vertices.size(); i += 3) grid.vertices[i] = 0.0F;
+    grid = shuffled(grid, seed);
+    const TriangleMesh organ(grid.vertices, grid.triangles());
+    CollisionRequest request = swept(organ, {{0.0, {{0.0, 0.0, 1.0}, {0.0, 0.0, 0.5}}}}, 0.25);
+    request.mode = QueryMode::kStatic;
+    request.clearance = true;
+    query.evaluate(request, result);
+    EXPECT_EQ(result.clearance.distance, 0.25);
+    const std::vector<double> distances = distances_at_end(request);
+    const auto first = std::find(distances.begin(), distances.end(), 0.25);
+    EXPECT_EQ(result.clearance.face, static_cast<std::uint32_t>(first - distances.begin()));
+  }
+}
+
 /// The near faces are the nearest ones that the tool does not touch. Returns how many there are.
 std::size_t expect_near(const CollisionResult& result, const CollisionRequest& request,
                         const std::vector<double>& measured) {

@@ -79,6 +79,27 @@ std::string name(const testing::TestParamInfo<GlFaults::ParamType>& info) {
          faults[static_cast<int>(std::get<1>(info.param))];
 }
 
+TEST_P(GlFaults, ThatStayMakeEachQueryFail) {
+  Random random(52);
+  int touching = 0;
+  for (int i = 0; i < 20 && touching < 3; ++i) {
+    LinkScene scene(true, random);
+    query_.evaluate(scene.request, result_);
+    const CollisionResult whole = result_;
+    if (whole.contacts.empty()) continue;
+    ++touching;
+    faulty_osmesa::befall(fault(), 0, faulty_osmesa::Duration::kForGood);
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_THROW(query_.evaluate(scene.request, result_), GlError);
+      EXPECT_TRUE(result_.contacts.empty());
+    }
+    faulty_osmesa::befall(Fault::kNone, 0);
+    query_.evaluate(scene.request, result_);
+    expect_same(result_.contacts, whole.contacts, 0.0);
+  }
+  EXPECT_EQ(touching, 3);
+}
+
 // LeakSanitizer cannot tell, because Mesa itself keeps memory.
 TEST_P(GlFaults, LeaveNoContextBehind) {
   const int before = faulty_osmesa::living_contexts();

@@ -138,6 +138,23 @@ TEST(LegSpan, BoundsTheArcOfALinkThatTiltsAboutItsOwnCenter) {
   EXPECT_LE(most, span.deviation);
 }
 
+TEST(LegSpan, AStraightWayIsOneSpanAndAToolAtRestHasOneLeg) {
+  Random random(3);
+  const ShaftMotion motion{random_axis(random), random_axis(random)};
+  ToolPath path;
+  for (int i = 0; i <= 64; ++i) path.push_back({i / 64.0, motion.at(i / 64.0)});
+  const LegSpan span = shaft_span(path.data(), path.size(), 0, 1e-9);
+  EXPECT_EQ(span.end, 64U);
+  EXPECT_LE(span.deviation, 1e-15);
+  const ToolPath rest = {{0.0, random_axis(random), {Isometry3d::Identity()}}};
+  const Link link{"jaw", {random_part(false, random)}};
+  for (const LegSpan& alone : {shaft_span(rest.data(), 1, 0, 1.0),
+                               link_span(rest.data(), 1, 0, 0, ball_around(link), 1.0)}) {
+    EXPECT_EQ(alone.leg_count(), 1U);
+    EXPECT_EQ(alone.deviation, 0.0);
+  }
+}
+
 TEST(RotationSubdivision, DividesLongRotationsAlongTheSameWay) {
   const auto waypoint = [](double fraction, double angle) {
     const Eigen::AngleAxisd turn(angle, Vector3d(1.0, 2.0, 3.0).normalized());

@@ -58,6 +58,31 @@ TEST(WorkerThreads, DoEachTaskOnceAndDeliverInOrder) {
   }
 }
 
+TEST(WorkerThreads, DeliverWhileLaterTasksRun) {
+  WorkerThreads workers(prepare_nothing);
+  workers.start(1);
+  std::promise<void> begun, delivered;
+  workers.run(
+      2,
+      [&](std::size_t worker, std::size_t task) {
+        if (worker == 0 && task == 0) begun.get_future().wait();
+        if (worker == 0 || task == 0) return;
+        begun.set_value();
+        delivered.get_future().wait();
+      },
+      [&](std::size_t task) {
+        if (task == 0) delivered.set_value();
+      });
+}
+
+TEST(WorkerThreads, TheCallerDeliversBetweenItsTasks) {
+  WorkerThreads workers(prepare_nothing);
+  std::size_t delivered = 0;
+  workers.run(
+      10, [&](std::size_t, std::size_t task) { EXPECT_EQ(delivered, task); },
+      [&](std::size_t) { ++delivered; });
+}
+
 TEST(WorkerThreads, ThrowTheFirstExceptionAndGoOnWithTheNextRound) {
   WorkerThreads workers(prepare_nothing);
   workers.start(3);

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <set>
 #include <vector>
 
@@ -96,6 +98,25 @@ TEST(FaceClusters, ReorderAShuffledSurfaceIntoCompactBlocks) {
   EXPECT_LT(blocks_of_all_clusters(clusters), 5 * clusters.block_count());
 }
 
+// A square patch of n points of a grid is as compact as a group can be.
+TEST(FaceClusters, HaveCompactGroups) {
+  constexpr int kSide = 127;
+  const GridSurface grid = shuffled(grid_surface(kSide), 7);
+  const FaceClusters clusters(grid.faces, grid.vertices);
+  double diagonals = 0.0;
+  for (std::size_t block = 0; block < clusters.block_count(); block += 2) {
+    Eigen::AlignedBox3f box;
+    for (std::size_t i = 0; i < 2 * FaceClusters::kBlock; ++i) {
+      const std::uint32_t vertex = clusters.vertices(block)[i];
+      box.extend(Eigen::Map<const Eigen::Vector3f>(&grid.vertices[3 * vertex]));
+    }
+    diagonals += box.diagonal().norm();
+  }
+  // The sheet is wavy, so that the sides of its patches are longer than those of their boxes.
+  const double square = std::sqrt(2.0) * 0.2 * (4 - 1) / kSide;
+  EXPECT_LT(diagonals / (0.5 * static_cast<double>(clusters.block_count())), 1.25 * square);
+}
+
 TEST(FaceClusters, TakeSoupsFansAndVerticesWithoutFaces) {
   std::vector<float> vertices(3 * 300, 0.25F);
   std::vector<FaceIndices> fan;
@@ -105,6 +126,62 @@ TEST(FaceClusters, TakeSoupsFansAndVerticesWithoutFaces) {
   expect_covering(FaceClusters(one, vertices), one, 300);
   vertices[0] = 1e6F;  // One vertex is far from all others.
   expect_covering(FaceClusters(fan, vertices), fan, 300);
+}
+
+Eigen::Array3f vertex(const GridSurface& grid, std::uint32_t index) {
+  return Eigen::Map<const Eigen::Array3f>(&grid.vertices[3 * index]);
+}
+
+/// The smallest box around the points point(0) to point(count - 1).
+template <typename Point>
+Eigen::AlignedBox3f box_around(std::size_t count, const Point& point) {
+  Eigen::AlignedBox3f box;
+  for (std::size_t i = 0; i < count; ++i) box.extend(Eigen::Vector3f(point(i).matrix()));
+  return box;
+}
+
+Eigen::AlignedBox3f plain(const BlockBoxes::Box& box) {
+  return {box.min.head<3>().matrix(), box.max.head<3>().matrix()};
+}
+
+TEST(BlockBoxes, AreTheSmallestInEveryShape) {
+  for (const int side : {1, 7, 30, 64, 150}) {
+    for (const bool shuffle : {false, true}) {
+      const GridSurface rest = shuffle ? shuffled(grid_surface(side), 3) : grid_surface(side);
+      const FaceClusters clusters(rest.faces, rest.vertices);
+      BlockBoxes boxes;
+      for (const double phase : {0.0, 0.4, 2.1}) {
+        const GridSurface grid =
+            shuffle ? shuffled(grid_surface(side, phase), 3) : grid_surface(side, phase);
+        ASSERT_TRUE(boxes.refit(clusters, grid.vertices));
+        for (std::size_t block = 0; block < clusters.block_count(); ++block) {
+          const auto corner = [&](std::size_t i) {
+            return vertex(grid, clusters.vertices(block)[i]);
+          };
+          EXPECT_TRUE(plain(boxes.blocks()[block])
+                          .isApprox(box_around(FaceClusters::kBlock, corner), 0.0F));
+        }
+        std::vector<Eigen::AlignedBox3f> members;
+        for (std::size_t block = 0; block < clusters.block_count(); ++block) {
+          members.push_back(plain(boxes.blocks()[block]));
+          for (const std::uint32_t part : clusters.blocks(block)) {
+            const bool is_beyond = part / kGroup != block / kGroup;
+            if (is_beyond) members.back().extend(plain(boxes.blocks()[part]));
+          }
+        }
+        for (std::size_t level = 0; level < clusters.level_count(); ++level) {
+          std::vector<Eigen::AlignedBox3f> groups(clusters.group_count(level));
+          for (std::size_t i = 0; i < members.size(); ++i) groups[i / kGroup].extend(members[i]);
+          for (std::size_t group = 0; group < groups.size(); ++group) {
+            EXPECT_TRUE(plain(boxes.groups(level)[group]).isApprox(groups[group], 0.0F));
+          }
+          members = groups;
+        }
+        const auto any = [&](std::size_t i) { return vertex(grid, static_cast<std::uint32_t>(i)); };
+        EXPECT_TRUE(boxes.all().isApprox(box_around(grid.vertices.size() / 3, any), 0.0F));
+      }
+    }
+  }
 }
 
 }  // namespace

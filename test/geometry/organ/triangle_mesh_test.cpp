@@ -69,6 +69,22 @@ TEST(TriangleMesh, RefusesWhatIsNoMeshAndNamesTheValue) {
   }
 }
 
+TEST(TriangleMesh, RefusesEveryCoordinateThatIsNotFinite) {
+  TriangleMesh mesh(kCorners, kTetrahedron);
+  for (const float bad :
+       {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+        -std::numeric_limits<float>::infinity()}) {
+    for (std::size_t i = 0; i < kCorners.size(); ++i) {
+      std::vector<float> vertices = kCorners;
+      vertices[i] = bad;
+      const std::string place =
+          std::string(1, "xyz"[i % 3]) + " of vertex " + std::to_string(i / 3);
+      expect_refused(Reason::kNotFinite, {place}, [&] { TriangleMesh(vertices, kTetrahedron); });
+      expect_refused(Reason::kNotFinite, {place}, [&] { mesh.move_vertices(vertices); });
+    }
+  }
+}
+
 TEST(TriangleMesh, TakesDegenerateFacesAndTheFarthestVertices) {
   const TriangleMesh mesh({0, 0, 0, 1e6F, -1e6F, 1}, {0, 0, 1, 1, 1, 1});
   EXPECT_EQ(mesh.face_count(), 2U);

@@ -153,6 +153,24 @@ TEST(ToolSurface, IsABalancedTreeEvenOfFacesThatAreAllTheSame) {
   }
 }
 
+TEST(ToolSurface, ProjectsOntoADirectionAsItsVertices) {
+  Random random(4);
+  for (const std::size_t faces : {1, 150, 3000}) {
+    const ToolSurface surface = scattered_mesh(faces, random).surface();
+    for (int i = 0; i < 300; ++i) {
+      const Vector3d direction = random.scale(1e-3, 1e3) * random.direction();
+      double lowest = INFINITY, highest = -INFINITY;
+      for (const Vector3d& vertex : surface.vertices()) {
+        lowest = std::min(lowest, direction.dot(vertex));
+        highest = std::max(highest, direction.dot(vertex));
+      }
+      const ProjectionInterval found = surface.project_onto(direction);
+      EXPECT_NEAR(found.low, lowest, 1e-15 * direction.norm());
+      EXPECT_NEAR(found.high, highest, 1e-15 * direction.norm());
+    }
+  }
+}
+
 // A sheet lies flat in its boxes in every orientation.
 TEST(ToolSurface, BoxesAreTurnedWithTheFaces) {
   Random random(2);

@@ -3,6 +3,7 @@
 
 #include <boost/make_shared.hpp>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -72,6 +73,13 @@ ContactArrayPtr answer_near() {
   return answer;
 }
 
+Crossing crossing(double shaft, int direction) {
+  Crossing crossing;
+  crossing.point = tf2::toMsg(kAxis.at(shaft));
+  crossing.direction = static_cast<std::int8_t>(direction);
+  return crossing;
+}
+
 /// A time later than the clock's zero.
 SteadyTime at(double seconds) {
   return SteadyTime() + std::chrono::duration_cast<SteadyTime::duration>(
@@ -90,10 +98,18 @@ Scene scene_with(const ContactArrayConstPtr& answer, double seconds = 0.0,
 }
 
 /// A scene of one tool without an answer.
-Scene scene_of(const Tool& tool, const ToolPose& pose) {
-  Scene scene = scene_with(nullptr);
+Scene scene_of(const Tool& tool, const ToolPose& pose, const std::vector<SceneStep>& steps = {},
+               double seconds = 0.0) {
+  Scene scene = scene_with(nullptr, seconds);
   scene.tools = std::make_shared<std::vector<Tool>>(1, tool);
   scene.organs[0].pairs[0].pose = pose;
+  scene.steps = steps;
+  const auto answer = answer_with({});
+  answer->tool = tool.parameters.name;
+  for (SceneStep& step : scene.steps) {
+    step.answer = answer;
+    step.faces = scene.organs[0].mesh->shared_faces();
+  }
   return scene;
 }
 
@@ -241,6 +257,28 @@ TEST_F(Painter, TouchedFacesAreLiftedAndColouredByDepthAndFadeAfterTheContact) {
             (Names{"surface/liver", "tools", "touched", "normals", "names", "status"}));
 }
 
+TEST_F(Painter, NoLineSaysThatAToolTouchesNothingWhileItsFacesAreShown) {
+  paint(touching(0.0));
+  for (double seconds = 0.05; seconds < 1.0; seconds += 0.07) {
+    paint(resting(seconds));
+    const std::string text = text_of(shown("status"));
+    const bool glows = namespaces().count("touched") > 0;
+    EXPECT_EQ(glows, seconds < kFadeSec) << seconds;
+    EXPECT_EQ(text.find("hook: touched a moment ago") != std::string::npos, glows) << text;
+    EXPECT_EQ(text.find("hook: touches nothing") == std::string::npos, glows) << text;
+  }
+}
+
+TEST_F(Painter, TheDeeperOfTwoToolsColoursAFace) {
+  Scene scene = touching(0.0, 0.006);
+  scene.organs[0].pairs.push_back(
+      {0, answer_with({contact_at(1, 0.002, 0.7, 0.7)}), ToolPose{kAxis, {}}});
+  paint(scene);
+  EXPECT_EQ(touched().colors.at(0), colours::depth(0.6));
+  paint(touching(0.1, 0.002));
+  EXPECT_EQ(touched().colors.at(0), colours::depth(0.2));
+}
+
 TEST_F(Painter, WhatIsGoneIsDeletedAndStepsOfEarlierTrianglesLeaveNoTraces) {
   Scene scene = touching(0.0);
   scene.organs.push_back(square("kidney"));
@@ -300,6 +338,47 @@ TEST_F(Painter, ASurfaceThatMovesIsSentAtItsRateAndALargeOneLessOften) {
   }
 }
 
+TEST_F(Painter, ALargeSurfaceIsCutAndASmallerOneLeavesNoScraps) {
+  organ_.mesh = mesh_of(2 * kFacesPerMarker + 5);
+  EXPECT_EQ(paint(resting(0.0)), 3u);
+  EXPECT_EQ(shown("surface/liver").at(1).points.size(), 3 * kFacesPerMarker);
+  EXPECT_EQ(shown("surface/liver").at(2).points.size(), 15u);
+  organ_.mesh = mesh_of(kFacesPerMarker);
+  EXPECT_EQ(paint(resting(1.0)), 1u);
+  EXPECT_EQ(shown("surface/liver").size(), 1u);
+}
+
+TEST_F(Painter, TheTimeOfAQueryChangesOnceASecond) {
+  const auto shown_at = [&](double seconds, double query_sec) {
+    Scene scene = touching(seconds);
+    scene.steps[0].query_sec = query_sec;
+    paint(scene);
+    return shown("status").back().text;
+  };
+  EXPECT_EQ(shown_at(0.0, 2e-6), "0.002 ms a query");
+  EXPECT_EQ(shown_at(0.1, 5e-6), "0.002 ms a query");
+  EXPECT_EQ(shown_at(1.2, 9e-6), "0.007 ms a query");
+}
+
+TEST_F(Viewer, SeesDepthsThatGetDarkerAndAreClamped) {
+  const auto brightness = [](const std_msgs::ColorRGBA& colour) {
+    return 0.3 * colour.r + 0.6 * colour.g + 0.1 * colour.b;
+  };
+  for (int i = 0; i < 100; ++i) {
+    const auto shallow = colours::depth(0.01 * i), deep = colours::depth(0.01 * (i + 1));
+    EXPECT_GT(brightness(shallow), brightness(deep)) << i;
+    EXPECT_EQ(shallow.a, 1.0f);
+  }
+  EXPECT_EQ(colours::depth(-3.0), colours::depth(0.0));
+  EXPECT_EQ(colours::depth(std::numeric_limits<double>::infinity()), colours::depth(1.0));
+  // A face without an area has no normal.
+  SceneOrgan organ = square();
+  organ.mesh =
+      std::make_shared<const TriangleMesh>(TriangleMesh({0, 0, 0, 1, 0, 0, 2, 0, 0}, {0, 1, 2}));
+  EXPECT_EQ(drawn(scene_with(answer_with({contact_at(0, 0, 0, 0)}), 0.0, organ), "touched").size(),
+            1u);
+}
+
 TEST_F(Viewer, SeesOutlinesAndTheDeepestContactsAsArrows) {
   const auto answer = answer_with({contact_at(0, 0.1, 0.25, 0.5)});
   answer->regions.resize(2);
@@ -318,6 +397,26 @@ TEST_F(Viewer, SeesOutlinesAndTheDeepestContactsAsArrows) {
   for (const Marker& arrow : arrows) EXPECT_EQ(point(arrow, 1).x(), 0.25);
 }
 
+TEST_F(Viewer, SeesTheNameOfEachTouchingLinkAtItsDeepestContact) {
+  const auto answer = answer_with(
+      {contact_at(0, 0.1, 0.1, 0.0), contact_at(1, 0.3, 0.2, 0.0), contact_at(1, 0.2, 0.3, 0.0)});
+  answer->contacts[2].link = 1;
+  answer->links = {"wrist", "jaw"};
+  Markers names = drawn(scene_with(answer), "names");
+  EXPECT_EQ(text_of(names), "hook\njaw");  // The shaft has no name of its own.
+  for (const Marker& name : names) {
+    EXPECT_EQ(name.type, Marker::TEXT_VIEW_FACING);
+    EXPECT_DOUBLE_EQ(name.pose.position.x, 0.2) << "names near each other share a text";
+    EXPECT_GT(name.pose.position.z, 0.0);
+  }
+  answer->contacts[2].on_organ.x = 0.9;
+  names = drawn(scene_with(answer), "names");
+  ASSERT_EQ(names.size(), 2u) << "names that are far from each other have their own texts";
+  EXPECT_EQ(names[0].text, "hook");
+  EXPECT_EQ(names[1].text, "jaw");
+  EXPECT_DOUBLE_EQ(names[1].pose.position.x, 0.9);
+}
+
 TEST_F(Viewer, SeesALineFromToolToOrgan) {
   const auto answer = answer_near();
   const Markers found = drawn(scene_with(answer), "clearance");
@@ -329,6 +428,35 @@ TEST_F(Viewer, SeesALineFromToolToOrgan) {
     answer->clearance.state = state;
     EXPECT_TRUE(drawn(scene_with(answer), "clearance").empty());
   }
+}
+
+TEST_F(Viewer, SeesTheNearestFacesTheNearerTheMoreOpaque) {
+  const auto answer = answer_near();
+  answer->near = {contact_at(1, -0.01, 0, 0), contact_at(0, -0.04, 0, 0)};
+  const Marker faces = drawn(scene_with(answer), "near").at(0);
+  ASSERT_EQ(faces.points.size(), 12u);  // Two sides of each face.
+  EXPECT_NEAR(faces.colors[6].a / faces.colors[0].a, 0.2 / 0.8, 1e-5);
+  paint(scene_with(answer_with({}), 0.01));
+  EXPECT_EQ(namespaces(), (Names{"surface/liver", "tools", "status"})) << "it is not near any more";
+  answer->near.assign(2005, contact_at(0, -0.01, 0, 0));
+  EXPECT_EQ(drawn(scene_with(answer), "near").at(0).points.size(), 6 * 2000u);
+}
+
+TEST_F(Viewer, SeesConesBeforeAnEntryAndBehindAnExit) {
+  const auto answer = answer_with({});
+  answer->placement.crossings = {crossing(0.4, 1), crossing(0.7, -1)};
+  const Markers cones = drawn(scene_with(answer), "crossings");
+  ASSERT_EQ(cones.size(), 2u);
+  EXPECT_TRUE(point(cones[0], 1).isApprox(kAxis.at(0.4), 1e-9));
+  EXPECT_TRUE(point(cones[1], 0).isApprox(kAxis.at(0.7), 1e-9));
+  EXPECT_NE(cones[0].color, cones[1].color);
+  const Vector3d along = (kAxis.tip - kAxis.trocar).normalized();
+  for (const Marker& cone : cones) {
+    EXPECT_NEAR((point(cone, 1) - point(cone, 0)).normalized().dot(along), 1.0, 1e-9);
+    EXPECT_NEAR(cone.scale.y, 2 * 2.5 * 0.02, 1e-9);  // Wider than the shaft.
+  }
+  answer->placement.crossings.assign(107, crossing(0.4, 1));
+  EXPECT_EQ(drawn(scene_with(answer), "crossings").size(), 100u);
 }
 
 TEST_F(Viewer, ReadsWhatTheAnswerTells) {
@@ -373,6 +501,47 @@ TEST_F(Viewer, ReadsWhatTheAnswerTells) {
   EXPECT_EQ(shown("status").at(2).header.frame_id, "kidney_frame");
 }
 
+TEST_F(Viewer, SeesTheStatusBelowTheOrganInLinesThatFitIntoTheWindow) {
+  const auto answer = answer_with({});
+  const std::string reason =
+      "a reason of many words, of which the last one goes on and on behind the edge of a window";
+  set_failure(*answer, ContactArray::NO_TRANSFORM, reason);
+  Scene scene = scene_with(answer);
+  scene.tools = std::make_shared<std::vector<Tool>>(1, shaft_tool(std::string(80, 'x'), 0.02));
+  const Markers lines = drawn(scene, "status");
+  ASSERT_GT(lines.size(), 3u);
+  std::string text;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    text += " " + lines[i].text;
+    // A word that is longer than a line stays whole.
+    const bool has_long_word = lines[i].text.find("xx") != std::string::npos;
+    EXPECT_LE(lines[i].text.size(), has_long_word ? 81u : 80u);
+    EXPECT_DOUBLE_EQ(lines[i].pose.position.x, 0.5);
+    EXPECT_LT(lines[i].pose.position.z, -0.2 * kSize) << "tools come from above, and would hide it";
+    if (i == 0) continue;
+    const double lower = lines[i - 1].pose.position.z - lines[i].pose.position.z;
+    EXPECT_GT(lower, 1.2 * lines[i].scale.z);
+    EXPECT_LT(lower, 2.0 * lines[i].scale.z);
+  }
+  EXPECT_EQ(text, " liver: 2 faces " + std::string(80, 'x') + ": no transform: " + reason);
+}
+
+TEST_F(Viewer, ReadsOnlyOfNearToolsIfThereAreSeveralOrgans) {
+  const auto answer = answer_with({});
+  answer->clearance.state = Clearance::BEYOND_MARGIN;
+  Scene scene = scene_with(answer);
+  scene.organs.push_back(square("kidney"));
+  EXPECT_EQ(text_of(drawn(scene, "status")), "liver: 2 faces\nkidney: 2 faces");
+  answer->placement.tip = ToolPlacement::INSIDE;
+  EXPECT_NE(text_of(drawn(scene, "status")).find("hook: touches nothing"), std::string::npos);
+  answer->placement.tip = ToolPlacement::OUTSIDE;
+  answer->contacts = {contact_at(0, 0.001, 0.25, 0.5)};
+  EXPECT_NE(text_of(drawn(scene, "status")).find("hook: 1 contact"), std::string::npos);
+  answer->contacts.clear();
+  answer->status = ContactArray::NO_TRANSFORM;
+  EXPECT_NE(text_of(drawn(scene, "status")).find("hook: no transform"), std::string::npos);
+}
+
 namespace {
 
 Isometry3d tilted() {
@@ -387,7 +556,13 @@ Tool tool_of(const LinkPart& part) {
   return tool;
 }
 
+SceneStep step(double seconds, const ToolPath& path) {
+  return {at(seconds), nullptr, nullptr, path, 0.0};
+}
+
 const Tool kHook = shaft_tool("hook", 0.25);
+const ShaftAxis kBeginAxis{{0, 0, 1}, {0, 0, 0}}, kTurned{{0, 0, 1}, {1, 0, 0}};
+const ShaftAxis kMoved{{0, 2, 1}, {1, 2, 0}};
 
 /// A hook whose hand is 20 mm below its proxy. The hook pushes a surface in the plane z = 0 down.
 ProxyView held_hook() {
@@ -464,6 +639,43 @@ TEST_F(Viewer, SeesALinkAsASphereACylinderABoxOrAMesh) {
   EXPECT_EQ(marker_of(LinkPart::mesh({corners, many})).type, Marker::CUBE);
 }
 
+TEST_F(Viewer, SeesATrailThatFadesAndIsCut) {
+  const auto swept = [&](const std::vector<SceneStep>& steps, double now) {
+    const Markers trail = drawn(scene_of(kHook, {kBeginAxis, {}}, steps, now), "swept");
+    return trail.empty() ? Marker() : trail[0];
+  };
+  // A triangle and a quadrangle.
+  EXPECT_EQ(
+      swept({step(0.0, {{0.0, kBeginAxis}, {0.5, kTurned}, {1.0, kMoved}})}, 0.1).points.size(),
+      9u);
+  EXPECT_TRUE(swept({step(0.0, {{0.0, kBeginAxis}}), step(0.0, {})}, 0.0).points.empty());
+  EXPECT_TRUE(swept({step(0.0, {{0.0, kBeginAxis}, {1.0, kBeginAxis}})}, 0.0).points.empty());
+  const ToolPath turn{{0.0, kBeginAxis}, {1.0, kTurned}};
+  const Marker trail = swept({step(-9.0, turn), step(0.0, turn), step(0.2, turn)}, 0.3);
+  ASSERT_EQ(trail.colors.size(), 6u);  // Nothing is left of the first step.
+  EXPECT_NEAR(trail.colors[0].a / trail.color.a, 1.0 - 0.1 / kFadeSec, 1e-5);
+  EXPECT_NEAR(trail.colors[3].a / trail.color.a, 1.0 - 0.3 / kFadeSec, 1e-5);
+  ToolPath path;
+  for (int i = 0; i < 3000; ++i) path.push_back({i / 2999.0, i % 2 ? kBeginAxis : kTurned});
+  EXPECT_EQ(swept({step(0.0, path)}, 0.0).points.size(), 3 * 2000u);
+}
+
+TEST_F(Viewer, SeesLinksSweepWithTheirLongestAxis) {
+  Isometry3d moved = Isometry3d::Identity();
+  moved.translation().x() = 0.5;
+  const Scene scene =
+      scene_of(tool_of(LinkPart::box(Isometry3d::Identity(), {0.01, 0.2, 0.02})), {{}, {moved}},
+               {step(0.0, {{0.0, {}, {Isometry3d::Identity()}}, {1.0, {}, {moved}}})});
+  const Marker marker = drawn(scene, "swept").at(0);
+  ASSERT_EQ(marker.points.size(), 6u);
+  double area = 0.0;
+  for (std::size_t i = 0; i < 6; i += 3) {
+    const Vector3d a = point(marker, i);
+    area += 0.5 * (point(marker, i + 1) - a).cross(point(marker, i + 2) - a).norm();
+  }
+  EXPECT_NEAR(area, 0.5 * 0.2, 1e-6);
+}
+
 TEST_F(Viewer, SeesAHeldProxySolidAndASpringToItsTranslucentHand) {
   const Marker proxy = drawn(scene_of(held_hook()), "proxy").at(0), hand = shown("hand").at(0);
   EXPECT_EQ(namespaces(), (Names{"proxy", "hand", "spring", "loads", "state"}));
@@ -479,4 +691,58 @@ TEST_F(Viewer, SeesAHeldProxySolidAndASpringToItsTranslucentHand) {
   EXPECT_EQ(text.text, "hook: TOUCHING, 6.0 N");
   EXPECT_GT(text.pose.position.z, 0.3);  // Above the trocar.
   EXPECT_DOUBLE_EQ(text.pose.position.x, 0.1);
+}
+
+TEST_F(Viewer, SeesEachLoadAsAnArrowTheLongestForTheGreatest) {
+  ProxyView view = held_hook();
+  ProxyFace other = view.answer.contacts.front();
+  other.contact.point = {0.5, 0.2, 0.0};
+  other.contact.normal = {1.0, 0.0, 0.0};
+  other.load = 0.005;
+  view.answer.contacts.push_back(other);
+  view.answer.crossings = {{0, 7, {0.2, 0.3, 0.5}, 0.8, {0.1, 0.3, 0.0}, {0.0, 0.0, -0.01}}};
+  const Markers arrows = drawn(scene_of(view), "loads");
+  ASSERT_EQ(arrows.size(), 3u);
+  const Vector3d tails[] = {{0.1, 0.2, 0.02}, {0.495, 0.2, 0.0}, {0.1, 0.3, 0.01}};
+  const Vector3d heads[] = {{0.1, 0.2, 0.0}, {0.5, 0.2, 0.0}, {0.1, 0.3, 0.0}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_TRUE(point(arrows[i], 0).isApprox(tails[i], 1e-12)) << i;
+    EXPECT_TRUE(point(arrows[i], 1).isApprox(heads[i], 1e-12)) << i;
+  }
+}
+
+TEST_F(Viewer, SeesNoHandOfAFreeProxyAndNoProxyWithoutAnAnswer) {
+  ProxyView view = held_hook();
+  view.answer.state = ProxyStatus::kFree;
+  view.answer.proxy = *view.hand;
+  view.answer.pull.setZero();
+  view.answer.contacts.front().load = 0.0;
+  paint(scene_of(view));
+  EXPECT_EQ(namespaces(), (Names{"proxy", "state"}));
+  view.tool = grasper();
+  const Isometry3d place(Eigen::Translation3d(0.0, 0.0, 0.1));
+  view.hand = view.answer.proxy = {{Vector3d::Zero(), Vector3d::Zero()}, {place, place}};
+  EXPECT_EQ(drawn(scene_of(view), "proxy").size(), 2u);
+
+  view = held_hook();
+  view.answer.state = ProxyStatus::kNoAnswer;
+  view.answer.message = "there is no organ";
+  const Marker state = drawn(scene_of(view), "state").at(0);
+  EXPECT_EQ(namespaces(), (Names{"hand", "state"}));
+  EXPECT_EQ(state.text, "hook: NO_ANSWER: there is no organ");
+  EXPECT_EQ(state.color, colours::kFailure);
+  view.hand.reset();
+  paint(scene_of(view));
+  EXPECT_EQ(namespaces(), (Names{"state"}));
+}
+
+TEST_F(Viewer, SeesAColourAndANameForEachStateOfAProxy) {
+  Names names;
+  std::set<float> colours;
+  for (int state = 0; state <= 4; ++state) {
+    names.insert(name_of(static_cast<ProxyStatus>(state)));
+    colours.insert(colours::proxy(static_cast<ProxyStatus>(state)).b);
+  }
+  EXPECT_EQ(names, (Names{"NO_ANSWER", "FREE", "TOUCHING", "SQUEEZED", "PUNCTURED"}));
+  EXPECT_EQ(colours.size(), 5u);
 }

@@ -128,6 +128,34 @@ TEST(TurningTools, WhatIsNoArcIsSampledUntilItIsFollowedToAMicrometre) {
   EXPECT_GT(cut, 5U);
 }
 
+TEST(TurningTools, TheOrganAndLinksMayTurnToo) {
+  const auto turned = [](double angle, const Vector3d& at) {
+    return Isometry3d(Eigen::Translation3d(at) * Eigen::AngleAxisd(angle, Vector3d::UnitZ()));
+  };
+  TransformBuffer buffer;
+  for (const double angle : {0.0, 0.4}) {
+    const double time = kStartTime + 0.05 * angle;
+    set_transform(buffer, "world", "liver", time, turned(angle, {0.1, 0.0, 0.0}));
+    set_transform(buffer, "world", "arm/wrist", time, turned(-angle, {0.0, 0.3, 0.0}));
+  }
+  set_point(buffer, "arm/wrist", "arm/jaw", 0.0, {0.2, 0.0, 0.0}, true);
+  const Tool tool = grasper();
+  const ToolPoses poses(buffer, {0.001, 1000});
+  const auto pose = [&](double time) {
+    return *poses.pose(tool, "liver", ros::Time(kStartTime + time)).found;
+  };
+  const SampledPath sampled = poses.path(tool, "liver", pose(0.0), pose(0.02));
+  EXPECT_EQ(sampled.unknown, "");
+  for (std::size_t leg = 1; leg < sampled.path.size(); ++leg) {
+    const ToolWaypoint &from = sampled.path[leg - 1], &to = sampled.path[leg];
+    const ToolPose right = pose(0.01 * (from.fraction + to.fraction)).value;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Isometry3d found = RigidMotion(from.links[i], to.links[i]).at(0.5);
+      EXPECT_LE((found.translation() - right.links[i].translation()).norm(), 2.1e-6);
+    }
+  }
+}
+
 // Poses along the arc are tested one by one. What each of them touches, the step touches.
 TEST(TurningTools, EveryFaceThatTheArcTouchesIsFoundAndNoOther) {
   Random random(33);

@@ -88,6 +88,23 @@ TEST(DeformableOrgan, ShapesInUseNeverChangeAndTheOthersAreUsedAgain) {
   EXPECT_EQ(seen.size(), 3U);
 }
 
+TEST(DeformableOrgan, NewTrianglesHaveASurfaceOfTheirOwnAndNoPreviousShape) {
+  Liver liver;
+  liver.rise(5, 3);
+  const OrganShape before = liver.latest();
+  before.surface->find();
+  liver.replace(TriangleMesh({0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1}, {0, 2, 1}, 4), ros::Time(5),
+                ros::Time(5));
+  EXPECT_FALSE(liver.latest().before);
+  EXPECT_EQ(liver.latest().mesh->topology(), 4U);
+  ASSERT_NE(before.topology(), nullptr);
+  EXPECT_EQ(before.topology()->welded().size(), before.mesh->vertex_count());
+  EXPECT_EQ(liver.latest().topology(), nullptr);
+  liver.surface()->find();
+  ASSERT_NE(liver.latest().topology(), nullptr);
+  EXPECT_EQ(liver.latest().topology()->welded().size(), 4U);
+}
+
 TEST(DeformableOrgan, AgeIsSinceTheArrivalWhateverTheStamp) {
   for (const ros::Time stamp :
        {ros::Time(3), ros::Time(), ros::Time(4.5), ros::Time(4294967295u, 0)}) {
@@ -129,6 +146,27 @@ TEST(OrganReport, DoubtsWhatIsProbablyAMistake) {
   EXPECT_NE(large[0].find("are these millimetres?"), std::string::npos) << large[0];
   EXPECT_NE(small[0].find("twice"), std::string::npos) << small[0];
   EXPECT_NE(small[1].find("organ 'kidney' point inward"), std::string::npos) << small[1];
+}
+
+TEST(SurfaceLog, CutsAtEveryStepDoNotFloodTheLog) {
+  CapturedLog captured;
+  SurfaceLog log;
+  SurfaceLog::Time now{std::chrono::hours(1)};
+  const Kidney outward, inward(kInward);
+  const auto logged = [&](const OrganSurface& surface, int later) {
+    log.tell("kidney", surface, now += std::chrono::seconds(later));
+    return captured.take();
+  };
+  const Texts came = {std::string("INFO ") + kWhatCame};
+  EXPECT_EQ(logged(outward, 0), came);
+  for (int i = 0; i < 3; ++i) EXPECT_TRUE(logged(outward, 1).empty());
+  const Texts doubted = logged(inward, 1);  // A doubt is said at once.
+  ASSERT_EQ(doubted.size(), 1U);
+  EXPECT_EQ(doubted[0].find("WARN the faces of organ 'kidney' point inward"), 0U) << doubted[0];
+  EXPECT_EQ(logged(inward, 1), came);
+  EXPECT_EQ(logged(inward, 5).size(), 2U);
+  log.tell("liver", outward, now);
+  EXPECT_EQ(captured.take().size(), 1U) << "another organ";
 }
 
 TEST(OrganInfo, TellsEverythingAboutTheLatestShape) {

@@ -191,6 +191,25 @@ TEST_F(DiagnosticsTest, WhatStepsAndServicesCount) {
   EXPECT_EQ(status.level, DiagnosticStatus::OK);
 }
 
+TEST_F(DiagnosticsTest, WhatOpenGlClippedInTheSteps) {
+  EXPECT_EQ(of_queries().at("faces clipped by OpenGL"), "0");
+  std::size_t drawn = 0, undrawn = 0;
+  watch = [&](const ToolStep& step) {
+    drawn += step.picked.drawn;
+    undrawn += step.picked.undrawn;
+  };
+  for (const double time : {1.0, 2.0}) {  // The axis pierces a face, then its tip is at a corner.
+    send_tip(time, time == 1.0 ? Eigen::Vector3d(0.1, 0.2, -0.3) : Eigen::Vector3d(1, 1, 0));
+    send_mesh(time, 0.0);
+    evaluate();
+  }
+  EXPECT_GT(drawn, 0U);
+  EXPECT_GT(undrawn, 0U);
+  const Values shown = of_queries();
+  EXPECT_EQ(shown.at("faces clipped by OpenGL"), std::to_string(drawn));
+  EXPECT_EQ(shown.at("faces decided without OpenGL"), std::to_string(undrawn));
+}
+
 TEST(DurationStatistics, AgreesWithCountingAndForgetsTheOldest) {
   std::mt19937 random(2);
   std::lognormal_distribution<double> duration(-9.0, 1.0);

@@ -7,12 +7,14 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <future>
 #include <limits>
 #include <map>
 #include <memory>
 #include <new>
 #include <random>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "common/messages/conversions.hpp"
@@ -177,6 +179,22 @@ class LinkQueriesTest : public QueryServicesTest {
 
 }  // namespace
 
+TEST_F(QueryServicesTest, SweptAndStatic) {
+  ContactArray answer = services.query(request);
+  EXPECT_EQ(answer.status, ContactArray::OK) << answer.message;
+  ASSERT_EQ(answer.contacts.size(), 1u);
+  EXPECT_EQ(answer.contacts[0].face, 1u);
+  EXPECT_EQ(answer.header.frame_id, "liver_frame");
+  EXPECT_EQ(answer.mesh_stamp, ros::Time(1.0));
+  EXPECT_TRUE(answer.regions.empty());
+  request.mode = ContactArray::STATIC;
+  request.motion.tip = tf2::toMsg(kAboveOrgan);
+  request.motion.previous_tip = tf2::toMsg(kBelow);
+  answer = services.query(request);
+  EXPECT_EQ(answer.status, ContactArray::OK);
+  EXPECT_TRUE(answer.contacts.empty());
+}
+
 TEST_F(QueryServicesTest, OrganRestsOnRequestAndInStaticQueries) {
   send_vertices(1.1, 2.0f);
   request.motion.previous_tip = request.motion.tip = tf2::toMsg(kAboveOrgan);
@@ -228,6 +246,20 @@ TEST_F(QueryServicesTest, AnEmptyNameStandsForTheOnlyOrgan) {
     send_mesh(2.0, removal);
   }
   expect_refused(ContactArray::NO_MESH, {"the node has no organ"});
+}
+
+TEST_F(QueryServicesTest, SidesAreKnownWhenTheSurfaceIsInspected) {
+  request.regions = request.placement = true;
+  ContactArray answer = services.query(request);
+  EXPECT_EQ(answer.regions.size(), 1u);
+  EXPECT_EQ(answer.placement.tip, ToolPlacement::UNKNOWN);
+  EXPECT_EQ(answer.placement.crossings.size(), 1u);
+  send_tetrahedron();
+  std::thread inspector([&] { organs.at("liver").surface()->find(); });
+  organs.at("liver").surface()->wait_until_found(std::chrono::minutes(1));
+  inspector.join();
+  request.motion.tip.z = -0.6;
+  EXPECT_EQ(services.query(request).placement.tip, ToolPlacement::INSIDE);
 }
 
 TEST_F(QueryServicesTest, ToolFromItsLastPublishedPose) {
@@ -333,6 +365,15 @@ TEST_F(QueryServicesTest, AQuestionStaysAsItIsWhileTheNodeGoesOn) {
   EXPECT_EQ(asked.radius, 0.01);
 }
 
+TEST_F(QueryServicesTest, ARefusalLeavesWhatIsKnownInTheAnswer) {
+  request.tool = "hook";
+  request.motion = {};
+  const ContactArray answer = services.query(request);
+  EXPECT_EQ(answer.status, ContactArray::NO_TRANSFORM);
+  EXPECT_EQ(answer.mesh_stamp, ros::Time(1.0));
+  EXPECT_TRUE(answer.links.empty());
+}
+
 /// A carrier takes the tip from 0.3 m above the sheet to 0.3 m below it within a second.
 TEST_F(QueryServicesTest, TheStampSaysWhereTheFrameOfTheMotionWas) {
   set_point(transforms, "liver_frame", "carrier", 4.0, {0.0, 0.0, 0.0});
@@ -413,6 +454,22 @@ TEST_F(QueryServicesTest, RefusesWithStatusValueAndWhatIsLegal) {
                  "the batch has 4 motions; must be at most 3 (max_batch): ask in several batches");
 }
 
+TEST_F(QueryServicesTest, IllegalNamesAreRefusedInAShortAnswer) {
+  const Single good = request;
+  for (const std::string& name : {std::string(10'000'000, 'x'), std::string("a\nb")}) {
+    for (std::string Single::*field : {&Single::organ, &Single::tool}) {
+      request = good;
+      request.*field = name;
+      expect_refused(kInvalid, {field == &Single::organ ? "organ" : "tool", "256"});
+      EXPECT_LT(serializationLength(services.query(request)), 4000u);
+    }
+    request = good;
+    request.header.frame_id = name;
+    expect_refused(kInvalid, {"header.frame_id", "256"});
+    EXPECT_LT(serializationLength(services.query(request)), 4000u);
+  }
+}
+
 TEST_F(QueryServicesTest, SweepsBackwardsInTimeAreRefused) {
   request.tool = "hook";
   request.motion = {};
@@ -456,9 +513,6 @@ TEST_F(QueryServicesTest, WhatIsNoRejectionIsAnsweredToo) {
 
 TEST_F(BatchTest, EachMotionIsAnsweredInOrderAsAlone) {
   EXPECT_TRUE(answer().results.empty());
-  batch.margin = 0.2;
-  batch.max_near = 5;
-  batch.regions = 1;
   add_random_shafts(203, -0.3);
   const std::vector<ContactArray> results = answer().results;
   ASSERT_EQ(results.size(), 203u);
@@ -470,13 +524,8 @@ TEST_F(BatchTest, EachMotionIsAnsweredInOrderAsAlone) {
     one.organ = batch.organ;
     one.mode = batch.mode;
     one.motion = batch.motions[i];
-    one.margin = batch.margin;
-    one.max_near = batch.max_near;
-    one.regions = batch.regions;
     const ContactArray alone = nodes[0]->services.query(one);
     EXPECT_EQ(results[i].contacts, alone.contacts) << i;
-    EXPECT_EQ(results[i].near, alone.near) << i;
-    EXPECT_EQ(results[i].regions, alone.regions) << i;
     EXPECT_EQ(results[i].status, alone.status) << i;
     EXPECT_EQ(results[i].message, alone.message) << i;
     contacts += alone.contacts.size();
@@ -506,6 +555,23 @@ TEST_F(BatchTest, AnEmptyNameStandsForAllOrgans) {
   }
   batch.stop_at_first_contact = 1;
   EXPECT_EQ(answer().results.size(), 2 * (first + 1)) << "with all organs of the last motion";
+}
+
+TEST_F(BatchTest, NearFacesAndRegionsAreThoseOfAQuery) {
+  add_random_shafts(3, -0.3);
+  Single one;
+  one.header = batch.header;
+  one.organ = batch.organ;
+  one.mode = batch.mode;
+  one.motion = batch.motions[0];
+  one.margin = batch.margin = 0.2;
+  one.max_near = batch.max_near = 5;
+  one.regions = batch.regions = 1;
+  const ContactArray alone = nodes[0]->services.query(one), among = answer().results.at(0);
+  EXPECT_EQ(among.near, alone.near);
+  EXPECT_EQ(among.near.size(), 5U);
+  EXPECT_EQ(among.regions, alone.regions);
+  EXPECT_EQ(among.regions.size(), among.contacts.size());
 }
 
 TEST_F(BatchTest, EndsWithTheFirstMotionThatTouches) {
@@ -542,6 +608,32 @@ TEST_F(BatchTest, ResultsThatAreTooLargeAreRefused) {
                                  " bytes; a batch's must have at most " + std::to_string(all - 1) +
                                  " (max_batch_bytes): ask for fewer motions at once");
   expect_words(answer(static_cast<int>(all - 4 * one)).message, {"first 2 of 5"});
+}
+
+TEST_F(BatchTest, BytesAfterTheFirstContactDoNotCount) {
+  add_random_shafts(200, 0.05);
+  ToolMotion wide = through();
+  wide.radius = 0.5;  // So many contacts that one answer is too large.
+  batch.motions.push_back(through());
+  batch.motions.insert(batch.motions.end(), 100, wide);
+  EXPECT_EQ(answer(400'000).status, kInvalid);
+  batch.stop_at_first_contact = 1;
+  const std::vector<ContactArray> found = answer(400'000).results;
+  ASSERT_EQ(found.size(), 201u);
+  EXPECT_FALSE(found.back().contacts.empty());
+}
+
+TEST_F(BatchTest, EndsSoonWhenAsked) {
+  add_random_shafts(1, 0.05);
+  batch.motions.assign(500'000, batch.motions[0]);
+  BatchNode& node = *nodes[1];
+  node.parameters.max_batch = 500'000;
+  auto answering =
+      std::async(std::launch::async, [&] { return node.services.query_batch(batch).status; });
+  EXPECT_EQ(answering.wait_for(std::chrono::milliseconds(100)), std::future_status::timeout);
+  node.services.end();
+  EXPECT_EQ(answering.get(), ContactArray::PICKER_FAILED);
+  EXPECT_EQ(node.services.query_batch(batch).message, "the query failed: the node is about to end");
 }
 
 /// The same motions, given in the organ's frame and in one that is elsewhere.

@@ -34,6 +34,20 @@ class LinkToolsTest : public testing::Test, protected NodeParts {
 
 }  // namespace
 
+TEST_F(LinkToolsTest, ContactsSayWhichLink) {
+  step(1.0, 0.3);
+  const auto answers = step(1.1, -0.3);
+  ASSERT_EQ(answers.size(), 2u);
+  for (const ContactArray& answer : answers) {
+    ASSERT_EQ(answer.status, ContactArray::OK) << answer.message;
+    EXPECT_EQ(answer.mode, ContactArray::SWEPT);
+    ASSERT_EQ(answer.contacts.size(), 1u) << answer.tool;
+    EXPECT_EQ(answer.contacts[0].face, 1u);
+    EXPECT_EQ(answer.links.at(answer.contacts[0].link), "jaw");
+    EXPECT_NEAR(answer.contacts[0].fraction, (0.3 - 0.01) / 0.6, 1e-7);
+  }
+}
+
 TEST_F(LinkToolsTest, AToolWithAFaultIsNeverEvaluated) {
   tools[1].links.clear();
   tools[1].joints.clear();

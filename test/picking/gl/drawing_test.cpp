@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <vector>
 
 using namespace organ_collision;
@@ -47,6 +48,32 @@ TEST(Feedback, ReadsPolygonsLinesAndPoints) {
   EXPECT_TRUE(faces(buffer, 0).empty());
 }
 
+TEST(Feedback, ACutOffBufferIsRefused) {
+  const std::vector<float> whole = triangle(3);
+  for (std::size_t size = 1; size < whole.size(); ++size) {
+    EXPECT_THROW(faces(whole, size), GlError) << size;
+    EXPECT_THROW(faces({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)}, size),
+                 GlError)
+        << size;
+  }
+}
+
+TEST(Feedback, IllegalNumbersOfVerticesAndFacesAreRefused) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float infinity = std::numeric_limits<float>::infinity();
+  for (const float vertices : {4.0f, -1.0f, 1e30f, nan, infinity, -infinity}) {
+    EXPECT_THROW(faces(triangle(vertices), 35), GlError) << vertices;
+  }
+  for (const float half : {-1.0f, 65536.0f, nan, infinity}) {
+    std::vector<float> lower = {GL_POINT_TOKEN}, upper = lower;
+    add_vertex(half, 0, lower);
+    add_vertex(0, half, upper);
+    EXPECT_THROW(faces(lower, lower.size()), GlError) << half;
+    EXPECT_THROW(faces(upper, upper.size()), GlError) << half;
+  }
+  EXPECT_THROW(faces({0.0f}, 1), GlError);
+}
+
 namespace {
 
 /// A triangle whose corners have these barycentric coordinates.
@@ -80,4 +107,15 @@ TEST(FaceParts, ThatGlHasSplitAreOnePolygon) {
   }
   EXPECT_TRUE(parts[1].empty());
   EXPECT_EQ(parts[2].size(), 3U);
+}
+
+TEST(FaceParts, IllegalFeedbackIsRefused) {
+  EXPECT_THROW(read_parts(triangle(3), 35), GlError) << "the token of a face is missing";
+  for (const float share : {-1.0f, 2.0f, std::numeric_limits<float>::quiet_NaN()}) {
+    std::vector<float> buffer;
+    add_mark(buffer);
+    add_part({{0, 0}, {1, 0}, {0, share}}, buffer);
+    EXPECT_THROW(read_parts(buffer, buffer.size()), GlError) << share;
+    EXPECT_THROW(read_parts(buffer, buffer.size() - 1), GlError);
+  }
 }

@@ -292,5 +292,45 @@ TEST(ProxySqueeze, StaysBetweenTwoPlatesThatClose) {
   EXPECT_GT(squeezed, 500);
 }
 
+/// A closed box, 60 mm wide and 5 mm thick. Its middle is 1 mm above the origin.
+GridSurface slab() {
+  GridSurface box = grid_cube(4, 0.015F);
+  for (std::size_t i = 0; i < box.vertices.size(); i += 3) {
+    Eigen::Map<Eigen::Vector3f> at(&box.vertices[i]);
+    at = (at.array() - 0.03F) * Eigen::Array3f(1.0F, 1.0F, 5.0F / 60.0F);
+    at.z() += 1e-3F;
+  }
+  return box;
+}
+
+TEST(ProxySqueeze, HoldsTissueBetweenJawsThatClose) {
+  // Two boxes along x, whose inner faces are `gap` apart.
+  const LinkPart box = LinkPart::box(Eigen::Isometry3d::Identity(), {0.02, 4e-3, 2e-3});
+  const ProxyTool tool{0.0, {{"upper", {box}}, {"lower", {box}}}, ProxyFreedom::kFree};
+  const auto hand = [](double gap) {
+    ToolPose pose{{Vector3d::Zero(), Vector3d::Zero()}};
+    for (const double side : {1.0, -1.0}) {
+      pose.links.emplace_back(Eigen::Translation3d(0.0, 0.0, side * (0.5 * gap + 1e-3)));
+    }
+    return pose;
+  };
+  const std::vector<ProxyOrgan> organs = {organ_of(slab())};
+  HapticProxy proxy(tool, {});
+  oracle::Referee referee(tool, {}, [](const std::string& what) { ADD_FAILURE() << what; });
+  long squeezed = 0;
+  for (int tick = 0; tick < 3000; ++tick) {
+    const double gap = gap_at(tick);
+    const ProxyAnswer& answer = proxy.follow(hand(gap), organs);
+    referee.check(hand(gap), false, organs, {true}, answer);
+    if (answer.state == ProxyStatus::kSqueezed) ++squeezed;
+    if (gap < 5e-3) {
+      EXPECT_EQ(answer.state, ProxyStatus::kSqueezed) << gap;
+    } else if (gap > 5.2e-3) {
+      EXPECT_NE(answer.state, ProxyStatus::kSqueezed) << gap;
+    }
+  }
+  EXPECT_GT(squeezed, 500);
+}
+
 }  // namespace
 }  // namespace organ_collision

@@ -57,6 +57,36 @@ TEST(LeastConstraint, IsOptimalInSixDimensions) {
   }
 }
 
+TEST(LeastConstraint, ViolatesOppositeWallsEqually) {
+  Random random(4);
+  LeastConstraint solver;
+  for (int trial = 0; trial < 500; ++trial) {
+    const Displacement across = random_displacement(random, 1.0, 6).normalized();
+    const double overlap = random.scale(1e-6, 1e-3), place = random.uniform(-1e-3, 1e-3);
+    const Displacement goal = random_displacement(random, 0.01, 6);
+    solver.solve(goal, {{across, place - overlap}, {-across, -place - overlap}});
+    EXPECT_NEAR(solver.violation(), overlap, 1e-7);
+    EXPECT_NEAR(across.dot(solver.displacement()), place, 1e-7);
+    // It goes to the goal in all other directions.
+    const Displacement left = goal - solver.displacement();
+    EXPECT_LT((left - left.dot(across) * across).norm(), 1e-9);
+  }
+}
+
+TEST(LeastConstraint, CopesWithEqualWallsAndRowsOfZeros) {
+  Random random(5);
+  LeastConstraint solver;
+  const Displacement row = random_displacement(random, 1.0, 6).normalized();
+  std::vector<Wall> walls(300, Wall{row, 0.001});
+  walls.push_back({Displacement::Zero(), 0.0});
+  walls.push_back({1e-9 * row, 1.0});
+  solver.solve(0.01 * row, walls);
+  EXPECT_LT((solver.displacement() - 0.001 * row).norm(), 1e-7);
+  double loads = 0.0;
+  for (std::size_t i = 0; i < walls.size(); ++i) loads += solver.load(i);
+  EXPECT_NEAR(loads, 0.009, 1e-7);
+}
+
 Isometry3d random_pose(Random& random, double range) {
   Isometry3d pose(Eigen::AngleAxisd(random.uniform(0.0, 3.0), random.direction()));
   pose.translation() = random.point(range);
