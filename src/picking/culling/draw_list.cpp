@@ -25,22 +25,14 @@ void DrawnFaces::clear() {
 }
 
 void DrawnFaces::add(const Triangle& face, std::uint32_t number) {
-  const Number halves = {static_cast<float>(number & 0xffff), static_cast<float>(number >> 16)};
-  add(face, {halves, halves, halves});
-}
-
-void DrawnFaces::add_with_barycentrics(const Triangle& face) {
-  add(face, {{{1.0F, 0.0F}, {0.0F, 1.0F}, {0.0F, 0.0F}}});
-}
-
-void DrawnFaces::add(const Triangle& face, const std::array<Number, 3>& numbers) {
   std::array<Position, 3>& positions = positions_.emplace_back();
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       positions[i][axis] = static_cast<float>(face[i][static_cast<Eigen::Index>(axis)]);
     }
   }
-  numbers_.push_back(numbers);
+  const Number halves = {static_cast<float>(number & 0xffff), static_cast<float>(number >> 16)};
+  numbers_.push_back({halves, halves, halves});
 }
 
 std::uint32_t DrawnFaces::number(std::size_t face) const {

@@ -26,8 +26,6 @@ class DrawnFaces {
   void clear();
   /// Adds a face in the volume's shifted coordinates.
   void add(const Triangle& face, std::uint32_t number);
-  /// The same. Instead of a number, each corner has its first two barycentric coordinates.
-  void add_with_barycentrics(const Triangle& face);
 
   bool empty() const { return positions_.empty(); }
   std::size_t size() const { return positions_.size(); }
@@ -38,8 +36,6 @@ class DrawnFaces {
   const Number& first_number() const { return numbers_.front().front(); }
 
  private:
-  void add(const Triangle& face, const std::array<Number, 3>& numbers);
-
   std::vector<std::array<Position, 3>> positions_;
   std::vector<std::array<Number, 3>> numbers_;
 };

@@ -24,11 +24,6 @@ const GlFunctions& prepare_to_draw(GlContext& context, const ViewingVolume& volu
 std::size_t draw_feedback(GlContext& context, const ViewingVolume& volume, const DrawnFaces& faces,
                           std::vector<float>& buffer);
 
-/// The same for faces with barycentric coordinates: draws them one by one, each after a
-/// pass-through token. read_parts() reads what GL returns.
-std::size_t draw_feedback_by_face(GlContext& context, const ViewingVolume& volume,
-                                  const DrawnFaces& faces, std::vector<float>& buffer);
-
 /// The number of floats of a vertex in a feedback buffer. GL_3D_COLOR_TEXTURE gives window x y z,
 /// color r g b a, texture coordinate s t r q.
 inline constexpr std::size_t kVertexFloats = 11;
@@ -55,14 +50,6 @@ void for_each_vertex(const std::vector<float>& buffer, std::size_t size, Visit v
     }
   }
 }
-
-/// The part of a face that survives clipping, a convex polygon: the first two barycentric
-/// coordinates of its corners, in their order along its border. Empty if nothing survives.
-using FacePart = std::vector<Eigen::Vector2d>;
-
-/// The parts of the faces that draw_feedback_by_face() has drawn, in the order drawn, from the
-/// first `size` floats of a feedback buffer. Throws GlError as for_each_vertex() does.
-std::vector<FacePart> read_parts(const std::vector<float>& buffer, std::size_t size);
 
 /// The number of the witness. The witness is a face in view that is drawn last. If GL does not
 /// return it, GL may be blind: its answer then means nothing. No face of an organ has this number.
