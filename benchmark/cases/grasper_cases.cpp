@@ -4,7 +4,7 @@
 
 #include "benchmark/scenes/scene.hpp"
 #include "cases.hpp"
-#include "geometry/distance/surface_touch.hpp"
+#include "geometry/distance/first_touch.hpp"
 
 namespace organ_collision::bench {
 namespace {

@@ -1,9 +1,22 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <string>
 
+#include "organ_collision/geometry/tolerances.hpp"
+
 namespace organ_collision {
+
+/// Whether a coordinate [m] is finite and its absolute value at most tolerance::kFarthest.
+inline bool is_in_range(double coordinate) {
+  return std::abs(coordinate) <= tolerance::kFarthest;  // false for NaN
+}
+
+/// Whether all coordinates of a point [m] are finite and within tolerance::kFarthest.
+inline bool is_in_range(const Eigen::Vector3d& point) {
+  return (point.array().abs() <= tolerance::kFarthest).all();
+}
 
 /// The lengths of the sides of a box, in the unit of the box, for example "0.12 x 0.09 x 0.06".
 std::string sides_of(const Eigen::AlignedBox3d& box);

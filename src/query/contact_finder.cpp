@@ -116,7 +116,8 @@ void ContactFinder::keep_faces_near_chord(const Step& step, const LegSpan& span,
   for (const PendingFace& pending : pending_faces_) {
     touches_.push_back({pending.face, organ.face(step.organ().faces()[pending.face]), {}});
   }
-  find_touches(on_chord, on_chord.radius() + span.deviation + tolerance::kTouch);
+  on_chord.find_touches(on_chord.radius() + span.deviation + tolerance::kTouch, budget_,
+                        surface_touches_, touches_);
   pending_faces_.clear();
   for (const FaceTouch& touch : touches_) {
     if (!touch.first) continue;
@@ -135,12 +136,13 @@ void ContactFinder::confirm_on_leg(const Step& step, std::size_t leg, const Movi
     const FaceMotion face = organ.face(step.organ().faces()[pending.face]);
     // If the tool only trembles, the plane across `normal` separates part and face on most legs.
     const double beyond = on_leg.radius() + tolerance::kTouch;
-    if (!pending.normal.isZero(0.0) && stays_beyond(pending.normal, on_leg.core(), face, beyond)) {
+    if (!pending.normal.isZero(0.0) &&
+        FixedPlane(pending.normal, on_leg.core()).keeps_beyond(face, beyond)) {
       continue;
     }
     touches_.push_back({pending.face, face, {}});
   }
-  find_touches(on_leg, on_leg.radius());
+  on_leg.find_touches(on_leg.radius(), budget_, surface_touches_, touches_);
   for (const FaceTouch& touch : touches_) {
     if (!touch.first) continue;
     contacts.push_back(contact_on(step, leg, on_leg, touch.face, *touch.first));
@@ -168,17 +170,12 @@ void ContactFinder::set_touching(const Step& step, std::vector<FaceContact>& con
     if (touches_.empty()) return;
     const PartOnLeg moving(end, span, part);
     budget_.add_pairs(touches_.size() * moving->convex_count());
-    find_touches(*moving, moving->radius());
+    moving->find_touches(moving->radius(), budget_, surface_touches_, touches_);
     auto touch = touches_.begin();
     for (FaceContact& contact : contacts) {
       if (is_open(contact)) contact.touching = (touch++)->first.has_value();
     }
   });
-}
-
-/// Finds for each face in `touches_` when it first comes within `radius` [m] of the part.
-void ContactFinder::find_touches(const MovingPart& part, double radius) {
-  if (!touches_.empty()) part.find_touches(radius, budget_, surface_touches_, touches_);
 }
 
 /// Whether the present link may touch the face on the leg `leg` earlier than known. If one part of

@@ -44,7 +44,6 @@ class ContactFinder {
   void confirm_on_leg(const Step& step, std::size_t leg, const MovingPart& on_leg,
                       std::vector<FaceContact>& contacts);
   void set_touching(const Step& step, std::vector<FaceContact>& contacts);
-  void find_touches(const MovingPart& part, double radius);
   bool is_pending(std::uint32_t face, std::size_t leg) const;
   void forget_touched_faces();
 

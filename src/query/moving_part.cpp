@@ -1,6 +1,5 @@
 #include "moving_part.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -103,7 +102,7 @@ FaceContact MovingPart::contact(const FirstTouch& touch, const FaceMotion& face,
   contact.point = closest.on_face;
   contact.barycentric = closest.barycentric;
   contact.on_organ = point_at(face_at_end, closest.barycentric);
-  contact.shaft = shaft_place(closest);
+  contact.shaft = link_ == kShaft ? closest.shaft : 0.0;
   if (closest.distance <= tolerance::kPierced) {
     const auto [normal, reach_at_end] = piercing(touch.time, face.at(touch.time));
     contact.normal = normal;

@@ -7,9 +7,8 @@
 #include <variant>
 #include <vector>
 
-#include "geometry/distance/closest_approach.hpp"
+#include "geometry/distance/first_touch.hpp"
 #include "geometry/distance/separating_plane.hpp"
-#include "geometry/distance/surface_touch.hpp"
 #include "organ_collision/geometry/tool/link.hpp"
 #include "organ_collision/query/contact.hpp"
 #include "picking/volumes/conservative_volume.hpp"
@@ -37,8 +36,8 @@ class MovingPart {
   /// A box around the space that the core or surface covers, without the radius.
   virtual OrientedBox bounds() const = 0;
   virtual FixedPlane plane(const Eigen::Vector3d& normal) const { return {normal, core_}; }
-  /// The normal, for stays_beyond(), of a plane between the closest points of the part and a face.
-  /// Zero if there is none, or if stays_beyond() does not apply.
+  /// The normal of a FixedPlane between the closest points of the core and a face. Zero if there is
+  /// none, or if the part is a surface.
   virtual Eigen::Vector3d separating_normal(const ClosestPoints& closest) const;
 
   /// Sets the first touch of each of `faces`: when it first comes within `radius` [m] of the core
@@ -74,8 +73,6 @@ class MovingPart {
   virtual Piercing piercing(double time, const Triangle& face) const = 0;
   /// The point of the core that touched, where it is at the end of the step.
   virtual Eigen::Vector3d at_end(const FirstTouch& touch) const = 0;
-  /// FaceContact::shaft
-  virtual double shaft_place(const ClosestPoints& /*closest*/) const { return 0.0; }
 
  private:
   std::int32_t link_;
@@ -101,7 +98,6 @@ class MovingShaft : public MovingPart {
   Eigen::Vector3d at_end(const FirstTouch& touch) const override {
     return end_.at(touch.closest.shaft);
   }
-  double shaft_place(const ClosestPoints& closest) const override { return closest.shaft; }
 
  private:
   ShaftMotion motion_;

@@ -42,7 +42,6 @@ class PlacementFinder {
     FaceCrossing place;
   };
 
-  Surface surface_of(const CollisionRequest& request);
   void find_axis(const Surface& surface, const ShaftAxis& axis, AxisPlacement& placement);
   void pick_near(const ShaftAxis& axis, const TriangleMesh& organ);
   void find_crossings(const Surface& surface, const ShaftAxis& axis,

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/distance/closest_approach.hpp"
+#include "geometry/distance/first_touch.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 #include "organ_collision/query/collision_query.hpp"
 #include "query/moving_part.hpp"

@@ -1,9 +1,5 @@
-#include "closest_approach.hpp"
-
-#include <cstdint>
-
+#include "first_touch.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
-#include "separating_plane.hpp"
 #include "swept_box.hpp"
 
 namespace organ_collision {
@@ -21,14 +17,19 @@ class ApproachSearch {
         budget_(budget) {}
 
   std::optional<ClosestApproach> find() {
-    if (farthest_move_ == 0.0) return find_at_rest();
+    if (farthest_move_ == 0.0) {
+      consider(0.0, closest_points(core_.start(), face_.start, least_));
+      return found_;
+    }
     const Instant start(0.0, core_, face_, least_ + farthest_move_);
     if (start.closest.distance > least_ + farthest_move_) {
       budget_.spend(start.closest.steps);
       return std::nullopt;
     }
     consider(start);
-    if (!found_ && stays_beyond(start.normal, core_, face_, limit())) return std::nullopt;
+    if (!found_ && FixedPlane(start.normal, core_).keeps_beyond(face_, limit())) {
+      return std::nullopt;
+    }
     const Instant end(1.0, core_, face_);
     consider(end);
     search(start, end, 0);
@@ -38,11 +39,6 @@ class ApproachSearch {
  private:
   /// [m] Only smaller distances than this are still of interest.
   double limit() const { return least_ - tolerance::kApproach; }
-
-  std::optional<ClosestApproach> find_at_rest() {
-    consider(0.0, closest_points(core_.start(), face_.start, least_));
-    return found_;
-  }
 
   void consider(double time, const ClosestPoints& closest) {
     budget_.spend(closest.steps);

@@ -23,8 +23,8 @@ struct ClosestPoints {
   int steps = 2;                ///< what the search cost, in steps of WorkBudget
 };
 
-/// The nearest points of a core and a face (possibly degenerate to a segment or a point). Calls one
-/// of the three functions below, depending on the kind of core.
+/// The nearest points of a core and a face (possibly degenerate to a segment or a point). The
+/// method depends on the kind of core.
 ///
 /// `distance_bound` [m] lets the search for a hull stop early. If the true distance is larger than
 /// the bound, the returned distance may be any value between the bound and the true distance, and
@@ -37,12 +37,6 @@ ClosestPoints closest_points(const ConvexCore& core, const Triangle& face,
 /// nearest to the tip is returned. The distance is always the least distance of all pairs. See
 /// doc/theory/geometry.md, Ties and piercing.
 ClosestPoints axis_closest_points(const ShaftAxis& axis, const Triangle& face);
-
-/// The nearest points of a flat-ended cylinder and a face (possibly degenerate). The face's nearest
-/// point is the projection of the cylinder's support point, or it lies on an edge. Along an edge
-/// the distance is a convex function, and Newton's method finds its minimum. See
-/// doc/theory/geometry.md, Distance algorithms.
-ClosestPoints cylinder_closest_points(const ConvexCore& cylinder, const Triangle& face);
 
 /// The nearest points of a hull of three or more points and a face (possibly degenerate), by the
 /// iteration of Gilbert, Johnson and Keerthi (1988). `distance_bound` [m] is as for

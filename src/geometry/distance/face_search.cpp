@@ -23,19 +23,11 @@ void FaceSearch::start(const OrganMotion& organ, const OrientedBox& box) {
   center_ = padded(box.center);
   half_size_ = padded(box.half_size);
   for (Eigen::Index i = 0; i < 3; ++i) rows_[i] = padded(box.axes.row(i));
+  groups_.clear();
   placed_.resize(std::max(placed_.size(), organ.after().vertex_count()));
   block_is_placed_.assign(clusters().block_count(), 0);
   slack_ = kRounding *
            (organ.extent(box.center) + box.center.cwiseAbs().maxCoeff() + box.half_size.maxCoeff());
-}
-
-void FaceSearch::rank_top(float squared_bound) {
-  groups_.clear();
-  rank_groups(static_cast<std::uint32_t>(clusters().level_count()) - 1, 0, squared_bound);
-}
-
-void FaceSearch::rank_members(const Ranked& group, float squared_bound) {
-  rank_groups(group.level - 1, group.index * FaceClusters::kGroup, squared_bound);
 }
 
 /// Ranks up to kGroup groups of a level, from the group `begin` on.
@@ -44,7 +36,7 @@ void FaceSearch::rank_groups(std::uint32_t level, std::size_t begin, float squar
   const std::vector<Box>& before = organ_->boxes_before().groups(level);
   const std::size_t end = std::min(begin + FaceClusters::kGroup, clusters().group_count(level));
   for (std::size_t group = begin; group < end; ++group) {
-    const Box box = organ_->rests() ? after[group] : after[group].join(before[group]);
+    const Box box = after[group].join(before[group]);
     push({squared_distance(box), static_cast<std::uint32_t>(group), level}, squared_bound, groups_);
   }
 }
@@ -116,8 +108,7 @@ FaceSearch::Box FaceSearch::box_around(std::uint32_t block) const {
   constexpr float kMost = std::numeric_limits<float>::max();
   Box box{Array4f::Constant(kMost), Array4f::Constant(-kMost)};
   for (const std::uint32_t part : clusters().blocks(block)) {
-    box = box.join(after[part]);
-    if (!organ_->rests()) box = box.join(before[part]);
+    box = box.join(after[part]).join(before[part]);
   }
   return box;
 }

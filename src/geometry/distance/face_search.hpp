@@ -29,10 +29,10 @@ class FaceSearch {
   std::size_t visit(const OrganMotion& organ, const OrientedBox& box, Bound bound,
                     Measure measure) {
     start(organ, box);
-    rank_top(squared(bound()));
+    rank_groups(static_cast<std::uint32_t>(clusters().level_count()) - 1, 0, squared(bound()));
     while (const auto group = pop_nearest(groups_, squared(bound()))) {
       if (group->level > 0) {
-        rank_members(*group, squared(bound()));
+        rank_groups(group->level - 1, group->index * FaceClusters::kGroup, squared(bound()));
         continue;
       }
       rank_blocks(group->index, squared(bound()));
@@ -72,8 +72,6 @@ class FaceSearch {
 
   const FaceClusters& clusters() const { return organ_->after().clusters(); }
   void start(const OrganMotion& organ, const OrientedBox& box);
-  void rank_top(float squared_bound);
-  void rank_members(const Ranked& group, float squared_bound);
   void rank_groups(std::uint32_t level, std::size_t begin, float squared_bound);
   void rank_blocks(std::uint32_t section, float squared_bound);
   /// Finds the PlacedVertex of each vertex of the faces of the block's cluster, unless it is found

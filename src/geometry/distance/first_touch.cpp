@@ -7,7 +7,6 @@
 #include <limits>
 #include <utility>
 
-#include "closest_points.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 #include "separating_plane.hpp"
 
@@ -79,29 +78,6 @@ Vector3d barycentric_at(const Section& section, double place) {
     weights[border.to] += share * border.fraction;
   }
   return weights;
-}
-
-/// An unresolved touch at the start of the leg. Its points are points of core and face, but need
-/// not be the nearest ones. So no iteration is needed.
-FirstTouch unresolved_at_start(const CoreMotion& core, const FaceMotion& face) {
-  return {0.0, axis_closest_points(core.start().axis(), face.start), false};
-}
-
-/// The result of closest_points(). Triangles that touch when a leg begins mostly cross each other,
-/// so the quick test for a crossing is tried first.
-ClosestPoints closest_at_start(const ConvexCore& core, const Triangle& face,
-                               double distance_bound) {
-  if (core.is_triangle()) {
-    const auto crossing = triangle_crossing(core.triangle(), face);
-    if (crossing) return *crossing;
-  }
-  return closest_points(core, face, distance_bound);
-}
-
-/// [m] The largest distance that counts as a touch.
-double touching_distance(const CoreMotion& core, const FaceMotion& face, double radius) {
-  const double extent = std::max(core.largest_coordinate(), face.largest_coordinate());
-  return radius + tolerance::kTouch + tolerance::kRounding * extent;
 }
 
 /// How long the next interval should be, as a multiple of the last one. Nothing touches during the
@@ -193,17 +169,28 @@ std::optional<ClosestPoints> triangle_crossing(const Triangle& core, const Trian
 std::optional<FirstTouch> first_touch(const CoreMotion& core, const FaceMotion& face, double radius,
                                       WorkBudget& budget, double until) {
   constexpr int kMaxAdvances = 1000;  // About ten advances are needed.
-  if (budget.is_used_up() && !core.start().is_axis()) return unresolved_at_start(core, face);
+  if (budget.is_used_up() && !core.start().is_axis()) {
+    // Points of core and face that need not be the nearest ones. So no iteration is needed.
+    return FirstTouch{0.0, axis_closest_points(core.start().axis(), face.start), false};
+  }
 
   const double farthest_move = core.farthest_move() + face.farthest_move();
   const double out_of_reach = radius + farthest_move;
-  const ClosestPoints at_start = closest_at_start(core.start(), face.start, out_of_reach);
+  // Triangles that touch when a leg begins mostly cross each other, so the quick test for a
+  // crossing is tried first.
+  std::optional<ClosestPoints> crossing;
+  if (core.start().is_triangle()) crossing = triangle_crossing(core.start().triangle(), face.start);
+  const ClosestPoints at_start =
+      crossing ? *crossing : closest_points(core.start(), face.start, out_of_reach);
   budget.spend(at_start.steps);
   if (at_start.distance <= radius) return FirstTouch{0.0, at_start};
   if (at_start.distance > out_of_reach || until == 0.0) return std::nullopt;
   Instant now(0.0, core, face, at_start);
-  const double touching = touching_distance(core, face, radius);
-  if (stays_beyond(now.normal, core, face, touching)) return std::nullopt;
+  // [m] The largest distance that counts as a touch.
+  const double touching =
+      radius + tolerance::kTouch +
+      tolerance::kRounding * std::max(core.largest_coordinate(), face.largest_coordinate());
+  if (FixedPlane(now.normal, core).keeps_beyond(face, touching)) return std::nullopt;
 
   // Before this time has passed, nothing can touch, because nothing moves that fast. The search
   // thus advances even where the nearest points are too close to each other to give a reliable

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "closest_points.hpp"
 #include "geometry/organ/organ_motion.hpp"
 #include "geometry/tool/leg_motion.hpp"
+#include "organ_collision/geometry/tool/tool_surface.hpp"
+#include "separating_plane.hpp"
 #include "work_budget.hpp"
 
 namespace organ_collision {
@@ -42,5 +46,73 @@ std::optional<FirstTouch> first_touch(const CoreMotion& core, const FaceMotion& 
 /// The first touch, searched with an unlimited budget.
 std::optional<FirstTouch> first_touch(const CoreMotion& core, const FaceMotion& face, double radius,
                                       double until = 1.0);
+
+/// A face during one leg, and its first touch when the search has found it.
+struct FaceTouch {
+  std::uint32_t face;  ///< the number of the face
+  FaceMotion motion;
+  std::optional<FirstTouch> first;
+};
+
+/// Finds the first touches of faces with the surface of a link. All faces go down the surface's
+/// tree of boxes together. Only the faces that may reach a box are kept below it. In a leaf, each
+/// face that is left is tested against each triangle. Keeps its memory between calls.
+class SurfaceTouches {
+ public:
+  /// Sets the first touch of each of `faces`: when the face first comes within `radius` [m] of the
+  /// surface. A face that stays farther away has no first touch. If several triangles touch a face
+  /// when the leg begins, the nearest triangle counts, because it is the deepest. If `budget` runs
+  /// out, touches are unresolved: the face may not touch at all, or may touch earlier.
+  void find(const ToolSurface& surface, const RigidMotion& motion, double radius,
+            WorkBudget& budget, std::vector<FaceTouch>& faces);
+
+ private:
+  /// What the faces are tested against in the present call.
+  struct Part {
+    const ToolSurface& surface;
+    const RigidMotion& motion;
+    double radius;
+    WorkBudget& budget;
+  };
+  struct DescendingFace {
+    LegFace leg;
+    FaceTouch* touch;
+  };
+  void visit(const Part& part, std::uint32_t node, std::size_t begin, std::size_t end);
+  void leave_unresolved(const Part& part, std::uint32_t triangle, std::size_t begin,
+                        std::size_t end);
+  void touch(const Part& part, std::uint32_t triangle, std::size_t begin, std::size_t end);
+
+  std::vector<DescendingFace> faces_;
+  /// Places in faces_: first of all faces, then of the faces near each box on the way down to a
+  /// leaf.
+  std::vector<std::uint32_t> listed_;
+};
+
+/// Where and when a part of a tool comes nearest to a face.
+struct ClosestApproach {
+  double time;  ///< the time, in [0, 1] of the leg
+  ClosestPoints closest;
+};
+
+/// The closest approach of a core and a face during a leg: a global minimum of their distance, to
+/// within tolerance::kApproach. If neither moves, the result is their closest points, without that
+/// tolerance. Returns nothing if the distance stays above `distance_bound` [m]. It may also return
+/// nothing if the distance falls below that bound by less than the tolerance.
+///
+/// If `budget` runs out before the search is done, the budget counts a cut (WorkBudget::cuts()),
+/// and the result is an upper bound, or nothing.
+///
+/// Method: the leg is halved until a turning plane, or the speed of the motion, shows for each
+/// interval that the distance cannot be smaller in it. See doc/theory/geometry.md, Closest
+/// approach.
+std::optional<ClosestApproach> closest_approach(const CoreMotion& core, const FaceMotion& face,
+                                                double distance_bound, WorkBudget& budget);
+
+/// The closest approach of the surface of a link and a face. The tree of boxes of the surface leads
+/// to its nearest triangles.
+std::optional<ClosestApproach> closest_approach(const ToolSurface& surface,
+                                                const RigidMotion& motion, const FaceMotion& face,
+                                                double distance_bound, WorkBudget& budget);
 
 }  // namespace organ_collision

@@ -13,17 +13,13 @@
 
 namespace organ_collision {
 
-/// The unit vector in the direction of a vector; zero if the vector is zero. Faster than Eigen's
+/// The unit normal of a triangle's plane; zero if the triangle is degenerate. Faster than Eigen's
 /// stableNormalized(), and as exact.
-inline Eigen::Vector3d unit_vector(const Eigen::Vector3d& vector) {
-  const double squared = vector.squaredNorm();
-  const bool is_exact = squared > 1e-200 && squared < 1e200;  // Neither underflow nor overflow.
-  return is_exact ? Eigen::Vector3d(vector / std::sqrt(squared)) : vector.stableNormalized();
-}
-
-/// The unit normal of a triangle's plane; zero if the triangle is degenerate.
 inline Eigen::Vector3d plane_normal(const Triangle& corners) {
-  return unit_vector(twice_area(corners));
+  const Eigen::Vector3d area = twice_area(corners);
+  const double squared = area.squaredNorm();
+  const bool is_exact = squared > 1e-200 && squared < 1e200;  // Neither underflow nor overflow.
+  return is_exact ? Eigen::Vector3d(area / std::sqrt(squared)) : area.stableNormalized();
 }
 
 inline ProjectionInterval project_onto(const Eigen::Vector3d& direction, const Triangle& corners) {
@@ -40,31 +36,23 @@ inline double first_zero(double start, double end) {
   return end > 0.0 ? 2.0 : start / (start - end);
 }
 
-/// A time of the leg, in [0, 1], before which a plane with a fixed normal proves that a face and a
-/// part of a tool are farther apart than some distance; 2 if it proves this for the whole leg. The
-/// intervals are the projections of face and part onto the normal, at the start and at the end of
-/// the leg. `reach` [m] is the distance plus the chord deviation.
-inline double clear_until(const ProjectionInterval& face, const ProjectionInterval& face_at_end,
-                          const ProjectionInterval& part, const ProjectionInterval& part_at_end,
-                          double reach) {
-  return std::max(
-      first_zero(face.low - part.high - reach, face_at_end.low - part_at_end.high - reach),
-      first_zero(part.low - face.high - reach, part_at_end.low - face_at_end.high - reach));
-}
-
 /// A face during one leg [m], with values that many tests of this face need. Refers to the face's
 /// motion, which must outlive this object.
 struct LegFace {
   explicit LegFace(const FaceMotion& motion)
       : motion(&motion), rests(motion.start == motion.end), normal(plane_normal(motion.start)) {}
 
-  /// The time that the function clear_until() above gives for this face. `plane` is the normal of
-  /// the plane; `part` and `part_at_end` are the part's projections onto it.
+  /// A time of the leg, in [0, 1], before which a plane with the fixed normal `plane` proves that
+  /// the face and a part of a tool are farther apart than some distance; 2 if it proves this for
+  /// the whole leg. `part` and `part_at_end` are the projections of the part onto the normal.
+  /// `reach` [m] is the distance plus the chord deviation.
   double clear_until(const Eigen::Vector3d& plane, const ProjectionInterval& part,
                      const ProjectionInterval& part_at_end, double reach) const {
     const ProjectionInterval face = project_onto(plane, motion->start);
-    return organ_collision::clear_until(face, rests ? face : project_onto(plane, motion->end), part,
-                                        part_at_end, reach);
+    const ProjectionInterval at_end = rests ? face : project_onto(plane, motion->end);
+    return std::max(
+        first_zero(face.low - part.high - reach, at_end.low - part_at_end.high - reach),
+        first_zero(part.low - face.high - reach, part_at_end.low - at_end.high - reach));
   }
 
   const FaceMotion* motion;
@@ -91,13 +79,6 @@ class FixedPlane {
   /// [m] The part's support values along the normal, grown by the chord deviation.
   double start_, end_;
 };
-
-/// Whether FixedPlane proves that the core stays farther than `distance` [m] from the face during
-/// the whole leg. `normal` is unit and points from the core to the face.
-inline bool stays_beyond(const Eigen::Vector3d& normal, const CoreMotion& core,
-                         const FaceMotion& face, double distance) {
-  return FixedPlane(normal, core).keeps_beyond(face, distance);
-}
 
 /// A core and a face at one time of the leg, with their nearest points and the direction of the
 /// plane that separates them.

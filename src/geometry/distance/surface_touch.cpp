@@ -1,12 +1,9 @@
-#include "surface_touch.hpp"
-
 #include <algorithm>
 #include <numeric>
-#include <optional>
 #include <tuple>
 
+#include "first_touch.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
-#include "separating_plane.hpp"
 #include "swept_box.hpp"
 
 namespace organ_collision {
@@ -80,88 +77,9 @@ bool precedes(const FirstTouch& touch, const FirstTouch& other) {
 
 }  // namespace
 
-/// Takes faces down the tree of boxes. A range [begin, end) of `listed_` says which faces.
-class SurfaceTouches::Descent {
- public:
-  Descent(const ToolSurface& surface, const RigidMotion& motion, double radius, WorkBudget& budget,
-          SurfaceTouches& touches)
-      : surface_(surface),
-        motion_(motion),
-        radius_(radius),
-        budget_(budget),
-        faces_(touches.faces_),
-        listed_(touches.listed_) {}
-
-  /// Finds the touches between the faces of a range and the triangles below the node `index`.
-  void visit(std::uint32_t index, std::size_t begin, std::size_t end) {
-    const SweptBox box(surface_.nodes()[index].box, motion_, radius_);
-    budget_.spend(end - begin);
-    for (std::size_t place = begin; place < end; ++place) {
-      const auto& [leg, touch] = faces_[listed_[place]];
-      if (is_settled(*touch)) continue;
-      if (box.clear_until(leg, closer(*touch, radius_)) > latest(*touch)) continue;
-      listed_.push_back(listed_[place]);
-    }
-    if (listed_.size() > end) descend(surface_.nodes()[index], index + 1, end, listed_.size());
-    listed_.resize(end);
-  }
-
- private:
-  void descend(const ToolSurface::Node& node, std::uint32_t first, std::size_t begin,
-               std::size_t end) {
-    if (budget_.is_used_up()) return leave_unresolved(node.begin, begin, end);
-    const bool is_leaf = node.second == 0;
-    if (is_leaf) {
-      for (std::uint32_t triangle = node.begin; triangle < node.end; ++triangle) {
-        touch(triangle, begin, end);
-      }
-    } else {
-      visit(first, begin, end);
-      visit(node.second, begin, end);
-    }
-  }
-
-  /// Marks the touches of the faces of a range as unresolved. A face without a touch gets a touch
-  /// with the given triangle.
-  void leave_unresolved(std::uint32_t triangle, std::size_t begin, std::size_t end) {
-    const CoreMotion core(ConvexCore(surface_.triangle(triangle)), motion_);
-    for (std::size_t place = begin; place < end; ++place) {
-      FaceTouch& face = *faces_[listed_[place]].touch;
-      if (!face.first) face.first = first_touch(core, face.motion, radius_, budget_);
-      face.first->is_resolved = false;
-    }
-  }
-
-  /// Finds the touches between the faces of a range and the triangle `index` of the surface.
-  void touch(std::uint32_t index, std::size_t begin, std::size_t end) {
-    const MovingTriangle triangle(surface_.triangle(index), motion_);
-    std::optional<CoreMotion> core;
-    for (std::size_t place = begin; place < end; ++place) {
-      const auto& [leg, face] = faces_[listed_[place]];
-      if (is_settled(*face)) continue;
-      if (face->first && budget_.is_used_up()) {
-        face->first->is_resolved = false;  // This triangle may touch it earlier.
-        continue;
-      }
-      const double until = latest(*face);
-      budget_.spend(1);
-      if (triangle.clear_until(leg, radius_ - closer(*face, radius_)) > until) continue;
-      if (!core) core.emplace(ConvexCore(surface_.triangle(index)), motion_);
-      const auto found = first_touch(*core, face->motion, radius_, budget_, until);
-      if (found && (!face->first || precedes(*found, *face->first))) face->first = found;
-    }
-  }
-
-  const ToolSurface& surface_;
-  const RigidMotion& motion_;
-  double radius_;
-  WorkBudget& budget_;
-  const std::vector<DescendingFace>& faces_;
-  std::vector<std::uint32_t>& listed_;
-};
-
 void SurfaceTouches::find(const ToolSurface& surface, const RigidMotion& motion, double radius,
                           WorkBudget& budget, std::vector<FaceTouch>& faces) {
+  if (faces.empty()) return;
   faces_.clear();
   for (FaceTouch& face : faces) {
     face.first.reset();
@@ -169,7 +87,70 @@ void SurfaceTouches::find(const ToolSurface& surface, const RigidMotion& motion,
   }
   listed_.resize(faces_.size());
   std::iota(listed_.begin(), listed_.end(), 0U);
-  Descent(surface, motion, radius, budget, *this).visit(0, 0, listed_.size());
+  visit({surface, motion, radius, budget}, 0, 0, listed_.size());
+}
+
+/// Finds the touches between the triangles below a node and the faces whose places are the elements
+/// [begin, end) of `listed_`.
+void SurfaceTouches::visit(const Part& part, std::uint32_t index, std::size_t begin,
+                           std::size_t end) {
+  const ToolSurface::Node& node = part.surface.nodes()[index];
+  const SweptBox box(node.box, part.motion, part.radius);
+  part.budget.spend(end - begin);
+  for (std::size_t place = begin; place < end; ++place) {
+    const auto& [leg, touch] = faces_[listed_[place]];
+    if (is_settled(*touch)) continue;
+    if (box.clear_until(leg, closer(*touch, part.radius)) > latest(*touch)) continue;
+    listed_.push_back(listed_[place]);
+  }
+  const std::size_t near_end = listed_.size();
+  const bool is_leaf = node.second == 0;
+  if (near_end == end) return;
+  if (part.budget.is_used_up()) {
+    leave_unresolved(part, node.begin, end, near_end);
+  } else if (is_leaf) {
+    for (std::uint32_t triangle = node.begin; triangle < node.end; ++triangle) {
+      touch(part, triangle, end, near_end);
+    }
+  } else {
+    visit(part, index + 1, end, near_end);
+    visit(part, node.second, end, near_end);
+  }
+  listed_.resize(end);
+}
+
+/// Marks the touches of the faces of a range as unresolved. A face without a touch gets a touch
+/// with the given triangle.
+void SurfaceTouches::leave_unresolved(const Part& part, std::uint32_t triangle, std::size_t begin,
+                                      std::size_t end) {
+  const CoreMotion core(ConvexCore(part.surface.triangle(triangle)), part.motion);
+  for (std::size_t place = begin; place < end; ++place) {
+    FaceTouch& face = *faces_[listed_[place]].touch;
+    if (!face.first) face.first = first_touch(core, face.motion, part.radius, part.budget);
+    face.first->is_resolved = false;
+  }
+}
+
+/// Finds the touches between the faces of a range and a triangle of the surface.
+void SurfaceTouches::touch(const Part& part, std::uint32_t index, std::size_t begin,
+                           std::size_t end) {
+  const Triangle in_link = part.surface.triangle(index);
+  const MovingTriangle triangle(in_link, part.motion);
+  std::optional<CoreMotion> core;
+  for (std::size_t place = begin; place < end; ++place) {
+    const auto& [leg, face] = faces_[listed_[place]];
+    if (is_settled(*face)) continue;
+    if (face->first && part.budget.is_used_up()) {
+      face->first->is_resolved = false;  // This triangle may touch it earlier.
+      continue;
+    }
+    const double until = latest(*face);
+    part.budget.spend(1);
+    if (triangle.clear_until(leg, part.radius - closer(*face, part.radius)) > until) continue;
+    if (!core) core.emplace(ConvexCore(in_link), part.motion);
+    const auto found = first_touch(*core, face->motion, part.radius, part.budget, until);
+    if (found && (!face->first || precedes(*found, *face->first))) face->first = found;
+  }
 }
 
 }  // namespace organ_collision

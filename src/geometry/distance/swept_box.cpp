@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 
 namespace organ_collision {
 namespace {
@@ -24,19 +23,6 @@ Vector3d unit_or(const Vector3d& vector, const Vector3d& otherwise) {
   return unit.isZero(0.0) ? otherwise : unit;
 }
 
-/// The axes of box_around(): orthonormal columns, right-handed.
-Eigen::Matrix3d axes_of(const ShaftMotion& motion) {
-  const ShaftAxis middle = motion.at(0.5);
-  const Vector3d along = unit_or(middle.along(), Vector3d::UnitX());
-  const Vector3d step = motion.end.tip - motion.start.tip;
-  // Removes the component along the axis twice: the first time leaves a rounding error.
-  Vector3d across = unit_or(step - along.dot(step) * along, along.unitOrthogonal());
-  across = unit_or(across - along.dot(across) * along, along.unitOrthogonal());
-  Eigen::Matrix3d axes;
-  axes << along, across, along.cross(across);
-  return axes;
-}
-
 }  // namespace
 
 SweptBox::SweptBox(const OrientedBox& box, const RigidMotion& motion, double radius)
@@ -44,8 +30,6 @@ SweptBox::SweptBox(const OrientedBox& box, const RigidMotion& motion, double rad
       rests_(motion.rests()),
       start_(place(box, motion.start())),
       end_(rests_ ? start_ : place(box, motion.end())),
-      low_(start_.low.cwiseMin(end_.low)),
-      high_(start_.high.cwiseMax(end_.high)),
       reach_(radius + chord_deviation(box, motion)) {}
 
 SweptBox::Place SweptBox::place(const OrientedBox& box, const Eigen::Isometry3d& pose) const {
@@ -95,7 +79,14 @@ OrientedBox SweptBox::bounds() const {
 }
 
 OrientedBox box_around(const ShaftMotion& motion) {
-  const Eigen::Matrix3d axes = axes_of(motion);
+  const ShaftAxis middle = motion.at(0.5);
+  const Vector3d along = unit_or(middle.along(), Vector3d::UnitX());
+  const Vector3d step = motion.end.tip - motion.start.tip;
+  // Removes the component along the axis twice: the first time leaves a rounding error.
+  Vector3d across = unit_or(step - along.dot(step) * along, along.unitOrthogonal());
+  across = unit_or(across - along.dot(across) * along, along.unitOrthogonal());
+  Matrix3d axes;
+  axes << along, across, along.cross(across);
   const Vector3d& origin = motion.end.trocar;
   Eigen::AlignedBox3d box;
   for (const ShaftAxis& axis : {motion.start, motion.end}) {

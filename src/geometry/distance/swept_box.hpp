@@ -20,8 +20,8 @@ class SweptBox {
   /// The axes of the box in the middle of the leg: columns, orthonormal, right-handed.
   const Eigen::Matrix3d& axes() const { return axes_; }
   /// The least and the greatest axis · point of the covered space, for each of axes().
-  Eigen::Vector3d low() const { return low_.array() - reach_; }
-  Eigen::Vector3d high() const { return high_.array() + reach_; }
+  Eigen::Vector3d low() const { return start_.low.cwiseMin(end_.low).array() - reach_; }
+  Eigen::Vector3d high() const { return start_.high.cwiseMax(end_.high).array() + reach_; }
 
   /// A time of the leg before which the face surely stays farther from the box than the radius
   /// minus `closer` [m]; above 1 if it does so during the whole leg. Tests planes with fixed
@@ -44,8 +44,7 @@ class SweptBox {
   Eigen::Matrix3d axes_;
   bool rests_;
   Place start_, end_;
-  Eigen::Vector3d low_, high_;  ///< least of both `low`, greatest of both `high`
-  double reach_;                ///< [m] how far the box grows: radius plus chord deviation
+  double reach_;  ///< [m] how far the box grows: radius plus chord deviation
 };
 
 /// A box around all positions of an axis during a leg. The first edge of the box is along the axis

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 
 namespace organ_collision {
 
@@ -39,19 +40,14 @@ class WorkBudget {
     return WorkBudget(kNearSteps + kStepsForEachNearFace * faces + kStepsForEachLeg * legs);
   }
   /// A budget that is never used up.
-  static WorkBudget unlimited() {
-    WorkBudget budget;
-    budget.is_limited_ = false;
-    return budget;
-  }
+  static WorkBudget unlimited() { return WorkBudget(std::numeric_limits<std::uint64_t>::max()); }
 
   void add_pairs(std::uint64_t count) { pairs_ += count; }
   void spend(std::uint64_t steps) { spent_ += steps; }
   /// The number of steps that were spent so far.
   std::uint64_t spent() const { return spent_; }
   bool is_used_up() const {
-    return is_limited_ &&
-           spent_ >= std::clamp(kStepsForEachPair * pairs_, least_steps_, most_steps_);
+    return spent_ >= std::clamp(kStepsForEachPair * pairs_, least_steps_, most_steps_);
   }
 
   /// Notes that a search ended early because the budget was used up.
@@ -63,7 +59,6 @@ class WorkBudget {
 
   std::uint64_t least_steps_, most_steps_;
   std::uint64_t pairs_ = 0, spent_ = 0, cuts_ = 0;
-  bool is_limited_ = true;
 };
 
 }  // namespace organ_collision

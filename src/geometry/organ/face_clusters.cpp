@@ -1,7 +1,5 @@
 #include "organ_collision/geometry/organ/face_clusters.hpp"
 
-#include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,52 +16,20 @@ struct Piece {
   std::uint32_t first_vertex;
 };
 
-/// How many of `count` pieces go into the first of two parts: the largest power of 2 below `count`,
-/// which is above 1.
-std::ptrdiff_t first_part(std::ptrdiff_t count) {
-  std::ptrdiff_t size = 1;
-  while (2 * size < count) size *= 2;
-  return size;
-}
-
 void order(Piece* begin, Piece* end, std::ptrdiff_t together) {
   if (end - begin <= together) return;
   Eigen::AlignedBox3f box;
   for (const Piece* piece = begin; piece < end; ++piece) box.extend(piece->place);
   Eigen::Index longest = 0;
   box.sizes().maxCoeff(&longest);
-  Piece* const middle = begin + first_part(end - begin);
+  std::ptrdiff_t first_part = 1;
+  while (2 * first_part < end - begin) first_part *= 2;
+  Piece* const middle = begin + first_part;
   std::nth_element(begin, middle, end, [longest](const Piece& a, const Piece& b) {
     return a.place[longest] < b.place[longest];
   });
   order(begin, middle, together);
   order(middle, end, together);
-}
-
-/// Orders the pieces of a surface so that pieces that follow each other lie near each other: each
-/// aligned group of 2^k pieces is compact. A piece is `piece` consecutive vertices, and its place
-/// is that of its first vertex. Returns the first vertices of the pieces, in the new order. Within
-/// each aligned group of `together` pieces, a power of 2, the order is arbitrary. `vertices`: x y z
-/// x y z ... [m], finite.
-///
-/// As in a k-d tree, the places are divided in two across the longest side of the box around them,
-/// and each part is divided again. The size of the first part is a power of 2, and not half of the
-/// places, so that each part except the last consists of whole groups. Source: Bentley 1975. A
-/// curve through a grid, such as Morton's, would be found in a third to half of the time, but its
-/// parts are not compact: queries would take up to seven times as long.
-std::vector<std::uint32_t> compact_order(const std::vector<float>& vertices, std::size_t piece,
-                                         std::size_t together) {
-  std::vector<Piece> pieces;
-  pieces.reserve(vertices.size() / 3 / piece + 1);
-  for (std::size_t i = 0; 3 * i < vertices.size(); i += piece) {
-    pieces.push_back(
-        {Eigen::Map<const Eigen::Vector3f>(&vertices[3 * i]), static_cast<std::uint32_t>(i)});
-  }
-  order(pieces.data(), pieces.data() + pieces.size(), static_cast<std::ptrdiff_t>(together));
-  std::vector<std::uint32_t> first_vertices;
-  first_vertices.reserve(pieces.size());
-  for (const Piece& ordered : pieces) first_vertices.push_back(ordered.first_vertex);
-  return first_vertices;
 }
 
 constexpr std::uint32_t kNone = ~0U;
@@ -107,12 +73,26 @@ FaceClusters::FaceClusters(const std::vector<FaceIndices>& faces,
   find_borders();
 }
 
+/// Orders the pieces so that pieces that follow each other lie near each other: each aligned group
+/// of 2^k pieces is compact. The place of a piece is that of its first vertex. Within a block, the
+/// order is arbitrary.
+///
+/// As in a k-d tree, the places are divided in two across the longest side of the box around them,
+/// and each part is divided again. The size of the first part is a power of 2, and not half of the
+/// places, so that each part except the last consists of whole groups. Source: Bentley 1975. A
+/// curve through a grid, such as Morton's, would be found in a third to half of the time, but its
+/// parts are not compact: queries would take up to seven times as long.
 void FaceClusters::order_pieces(const std::vector<float>& vertices) {
   const auto last = static_cast<std::uint32_t>(vertices.size() / 3 - 1);
   const std::uint32_t size = piece_size_;
   block_of_piece_.resize(last / size + 1);
+  std::vector<Piece> pieces;
+  pieces.reserve(block_of_piece_.size());
+  for (std::uint32_t i = 0; i <= last; i += size) pieces.push_back({position(vertices, i), i});
+  order(pieces.data(), pieces.data() + pieces.size(), kBlock / size);
   order_.reserve(vertices.size() / 3 + kBlock);
-  for (const std::uint32_t first : compact_order(vertices, size, kBlock / size)) {
+  for (const Piece& piece : pieces) {
+    const std::uint32_t first = piece.first_vertex;
     block_of_piece_[first / size] = static_cast<std::uint32_t>(order_.size() / kBlock);
     for (std::uint32_t i = 0; i < size; ++i) order_.push_back(std::min(first + i, last));
   }
@@ -243,10 +223,6 @@ Box join_members(const std::vector<Box>& members, std::size_t group) {
   return box;
 }
 
-bool all_finite(const std::vector<float>& values) {
-  return std::all_of(values.begin(), values.end(), [](float x) { return std::isfinite(x); });
-}
-
 }  // namespace
 
 bool BlockBoxes::refit(const FaceClusters& clusters, const std::vector<float>& vertices) {
@@ -259,7 +235,8 @@ bool BlockBoxes::refit(const FaceClusters& clusters, const std::vector<float>& v
   const Box all = join_members(groups_[clusters.level_count() - 1], 0);
   all_ = {all.min.head<3>().matrix(), all.max.head<3>().matrix()};
   // If the sum is finite, all coordinates are finite. Otherwise the sum may only have overflowed.
-  return std::isfinite(sum) || all_finite(vertices);
+  return std::isfinite(sum) ||
+         std::all_of(vertices.begin(), vertices.end(), [](float x) { return std::isfinite(x); });
 }
 
 void BlockBoxes::fit_groups(const FaceClusters& clusters) {
@@ -268,18 +245,11 @@ void BlockBoxes::fit_groups(const FaceClusters& clusters) {
     const std::vector<Box>& members = level == 0 ? blocks_ : groups_[level - 1];
     groups_[level].assign(padded(clusters.group_count(level)), empty_box());
     for (std::size_t group = 0; group < clusters.group_count(level); ++group) {
-      groups_[level][group] = join_members(members, group);
-    }
-    if (level == 0) add_borders(clusters);
-  }
-}
-
-/// Extends the box of each section by the boxes of its border: the blocks of other sections that
-/// hold vertices of its faces.
-void BlockBoxes::add_borders(const FaceClusters& clusters) {
-  for (std::size_t section = 0; section < clusters.group_count(0); ++section) {
-    for (const std::uint32_t block : clusters.border(section)) {
-      groups_[0][section] = groups_[0][section].join(blocks_[block]);
+      Box box = join_members(members, group);
+      if (level == 0) {
+        for (const std::uint32_t block : clusters.border(group)) box = box.join(blocks_[block]);
+      }
+      groups_[level][group] = box;
     }
   }
 }

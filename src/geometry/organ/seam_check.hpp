@@ -27,9 +27,8 @@ class SeamCheck {
     std::weak_ptr<const std::vector<float>> vertices;
     bool hold = true;
   };
-  /// The entry of a topology in `checked_`. A new topology replaces the oldest entry.
-  Checked& checked(const std::shared_ptr<const std::vector<SeamVertex>>& seams);
 
+  /// An entry for each topology. A new topology replaces the oldest entry.
   std::array<Checked, 32> checked_;
   std::size_t next_ = 0;
 };

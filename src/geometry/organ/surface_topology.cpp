@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 namespace organ_collision {
 namespace {
@@ -46,14 +47,6 @@ Numbers weld(const std::vector<FaceIndices>& faces, const std::vector<float>& ve
     welded[place.vertex] = first->vertex;
   }
   return welded;
-}
-
-std::vector<SeamVertex> find_seams(const Numbers& welded) {
-  std::vector<SeamVertex> seams;
-  for (std::uint32_t vertex = 0; vertex < welded.size(); ++vertex) {
-    if (welded[vertex] != vertex) seams.push_back({vertex, welded[vertex]});
-  }
-  return seams;
 }
 
 /// An edge, in the list of its end with the lower number.
@@ -122,7 +115,11 @@ SurfaceTopology::SurfaceTopology(const std::vector<FaceIndices>& faces,
     welded_ = weld(faces, vertices);
     open_edges_ = count_open_edges(faces, welded_);
   }
-  seams_ = std::make_shared<std::vector<SeamVertex>>(find_seams(welded_));
+  auto seams = std::make_shared<std::vector<SeamVertex>>();
+  for (std::uint32_t i = 0; i < welded_.size(); ++i) {
+    if (welded_[i] != i) seams->push_back({i, welded_[i]});
+  }
+  seams_ = std::move(seams);
 }
 
 /// Sums the signed volumes of the tetrahedra between the faces and an apex. The apex is a vertex of

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "geometry/concatenate.hpp"
-#include "geometry/coordinate_range.hpp"
+#include "geometry/plausible_size.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 
 namespace organ_collision {
@@ -13,40 +12,40 @@ namespace {
 
 using Reason = MeshError::Reason;
 
+template <typename... Parts>
+[[noreturn]] void refuse_mesh(Reason reason, const Parts&... parts) {
+  throw MeshError(reason, concatenate(parts...));
+}
+
 /// Throws if a coordinate is not finite or too large. The message names the first bad coordinate.
 void check_coordinates(const std::vector<float>& vertices) {
   const auto bad = std::find_if_not(vertices.begin(), vertices.end(),
                                     [](float coordinate) { return is_in_range(coordinate); });
   if (bad == vertices.end()) return;
   const auto index = static_cast<std::size_t>(bad - vertices.begin());
-  throw MeshError(
-      std::isfinite(*bad) ? Reason::kTooFar : Reason::kNotFinite,
-      concatenate("xyz"[index % 3], " of vertex ", index / 3, " is ", *bad,
-                  "; coordinates must be finite and within ", tolerance::kFarthest, " m"));
+  refuse_mesh(std::isfinite(*bad) ? Reason::kTooFar : Reason::kNotFinite, "xyz"[index % 3],
+              " of vertex ", index / 3, " is ", *bad, "; coordinates must be finite and within ",
+              tolerance::kFarthest, " m");
 }
 
 void check_sizes(std::size_t coordinates, std::size_t indices, const MeshLimits& limits) {
   if (coordinates % 3 != 0) {
-    throw MeshError(Reason::kSize, std::to_string(coordinates) +
-                                       " vertex coordinates; must be a multiple of three");
+    refuse_mesh(Reason::kSize, coordinates, " vertex coordinates; must be a multiple of three");
   }
   if (indices % 3 != 0) {
-    throw MeshError(Reason::kSize,
-                    std::to_string(indices) + " triangle indices; must be a multiple of three");
+    refuse_mesh(Reason::kSize, indices, " triangle indices; must be a multiple of three");
   }
   if (indices == 0) {
-    throw MeshError(
-        Reason::kNoTriangles,
-        std::to_string(coordinates / 3) + " vertices but no triangles; a mesh has at least one");
+    refuse_mesh(Reason::kNoTriangles, coordinates / 3,
+                " vertices but no triangles; a mesh has at least one");
   }
   if (indices / 3 > limits.max_faces) {
-    throw MeshError(Reason::kTooManyFaces, std::to_string(indices / 3) + " faces; at most " +
-                                               std::to_string(limits.max_faces) + " are allowed");
+    refuse_mesh(Reason::kTooManyFaces, indices / 3, " faces; at most ", limits.max_faces,
+                " are allowed");
   }
   if (coordinates / 3 > 3 * limits.max_faces) {
-    throw MeshError(Reason::kTooManyVertices,
-                    std::to_string(coordinates / 3) + " vertices; at most " +
-                        std::to_string(3 * limits.max_faces) + " are allowed");
+    refuse_mesh(Reason::kTooManyVertices, coordinates / 3, " vertices; at most ",
+                3 * limits.max_faces, " are allowed");
   }
 }
 
@@ -55,9 +54,8 @@ std::vector<FaceIndices> make_faces(const std::vector<std::uint32_t>& triangles,
   std::vector<FaceIndices> faces(triangles.size() / 3);
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     if (triangles[i] >= vertex_count) {
-      throw MeshError(Reason::kIndex, "face " + std::to_string(i / 3) + " refers to vertex " +
-                                          std::to_string(triangles[i]) + " of " +
-                                          std::to_string(vertex_count) + "; the first is 0");
+      refuse_mesh(Reason::kIndex, "face ", i / 3, " refers to vertex ", triangles[i], " of ",
+                  vertex_count, "; the first is 0");
     }
     faces[i / 3][i % 3] = triangles[i];
   }
@@ -79,9 +77,8 @@ TriangleMesh::TriangleMesh(SharedVertices vertices, const std::vector<std::uint3
 
 void TriangleMesh::move_vertices(SharedVertices vertices) {
   if (vertices->size() != vertices_->size()) {
-    throw MeshError(Reason::kSize, std::to_string(vertices->size()) +
-                                       " vertex coordinates; this topology has " +
-                                       std::to_string(vertices_->size()));
+    refuse_mesh(Reason::kSize, vertices->size(), " vertex coordinates; this topology has ",
+                vertices_->size());
   }
   // Fitting the boxes also shows whether all coordinates are legal. A second pass finds the illegal
   // coordinate, if there is one.

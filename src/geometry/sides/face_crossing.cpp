@@ -7,6 +7,40 @@
 #include <limits>
 
 namespace organ_collision {
+namespace {
+
+/// The exponent of the last binary digit of a double; 0 for zero.
+int last_exponent(double number) {
+  int exponent = 0;
+  std::frexp(number, &exponent);
+  return number == 0.0 ? 0 : exponent - std::numeric_limits<double>::digits;
+}
+
+// [1] An upper bound of the error of the triple product, as a share of the sum of the absolute
+// values of its six products. At most eight roundings lead to each product and to the sum, so the
+// error is below 10 * 2^-53 of it.
+constexpr double kRoundingShare = 16.0 / (1LL << 53);
+// [m^3] An upper bound of the error that underflow adds. A product below the smallest normal number
+// loses up to 2^-1074, and the factors that follow, which are below 2^22, enlarge this loss.
+constexpr double kUnderflow = 1e-300;
+
+/// On which side of the face's plane the point is after the infinitesimal displacement (see
+/// crossing_direction()): 1 on the outer side, -1 on the inner side. 0 if the face is degenerate.
+int side_of_plane(const Triangle& face, const Eigen::Vector3d& point) {
+  const ExactVector first{face[0], face[1]}, second{face[0], face[2]};
+  const int side = triple_product_sign(first, second, {face[0], point});
+  return side != 0 ? side : cross_product_sign(first, second);
+}
+
+/// On which side (1 or -1) the line along the axis passes the edge after the infinitesimal
+/// displacement. 0 if axis and edge are parallel.
+int side_of_edge(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const ShaftAxis& axis) {
+  const ExactVector along{axis.trocar, axis.tip};
+  const int side = triple_product_sign(along, {axis.trocar, from}, {from, to});
+  return side != 0 ? side : cross_product_sign(along, {from, to});
+}
+
+}  // namespace
 
 double ratio(const ExactInteger& numerator, const ExactInteger& denominator) {
   constexpr int kDigits = 62;
@@ -25,45 +59,18 @@ double ratio(const ExactInteger& numerator, const ExactInteger& denominator) {
   return numerator.sign() < 0 ? -result : result;
 }
 
-namespace {
-
-/// A double as digits * 2^exponent. `digits` is odd unless the number is zero.
-struct BinaryNumber {
-  explicit BinaryNumber(double number) {
-    constexpr int kDigits = std::numeric_limits<double>::digits;
-    if (number == 0.0) return;
-    digits = static_cast<std::int64_t>(std::ldexp(std::frexp(number, &exponent), kDigits));
-    const int zeros = std::ilogb(static_cast<double>(digits & -digits));
-    digits /= std::int64_t{1} << zeros;
-    exponent += zeros - kDigits;
-  }
-
-  std::int64_t digits = 0;
-  int exponent = 0;
-};
-
-// [1] An upper bound of the error of the triple product, as a share of the sum of the absolute
-// values of its six products. At most eight roundings lead to each product and to the sum, so the
-// error is below 10 * 2^-53 of it.
-constexpr double kRoundingShare = 16.0 / (1LL << 53);
-// [m^3] An upper bound of the error that underflow adds. A product below the smallest normal number
-// loses up to 2^-1074, and the factors that follow, which are below 2^22, enlarge this loss.
-constexpr double kUnderflow = 1e-300;
-
-}  // namespace
-
 ExactGrid::ExactGrid(std::initializer_list<Eigen::Vector3d> points) {
   for (const Eigen::Vector3d& point : points) {
     for (const double coordinate : {point.x(), point.y(), point.z()}) {
-      exponent_ = std::min(exponent_, BinaryNumber(coordinate).exponent);
+      exponent_ = std::min(exponent_, last_exponent(coordinate));
     }
   }
 }
 
 ExactInteger ExactGrid::integer(double coordinate) const {
-  const BinaryNumber number(coordinate);
-  if (number.digits == 0) return 0;
-  return ExactInteger(number.digits) << (number.exponent - exponent_);
+  const int exponent = last_exponent(coordinate);
+  const auto digits = static_cast<std::int64_t>(std::ldexp(coordinate, -exponent));
+  return ExactInteger(digits) << (exponent - exponent_);
 }
 
 int triple_product_sign(const ExactVector& u, const ExactVector& v, const ExactVector& w) {
@@ -92,32 +99,6 @@ int cross_product_sign(const ExactVector& u, const ExactVector& v) {
   return 0;
 }
 
-namespace {
-
-bool is_on_segment(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
-                   const Eigen::Vector3d& point) {
-  return Eigen::AlignedBox3d(from.cwiseMin(to), from.cwiseMax(to)).contains(point) &&
-         cross_product_sign({from, to}, {from, point}) == 0;
-}
-
-/// On which side of the face's plane the point is after the infinitesimal displacement (see
-/// crossing_direction()): 1 on the outer side, -1 on the inner side. 0 if the face is degenerate.
-int side_of_plane(const Triangle& face, const Eigen::Vector3d& point) {
-  const ExactVector first{face[0], face[1]}, second{face[0], face[2]};
-  const int side = triple_product_sign(first, second, {face[0], point});
-  return side != 0 ? side : cross_product_sign(first, second);
-}
-
-/// On which side (1 or -1) the line along the axis passes the edge after the infinitesimal
-/// displacement. 0 if axis and edge are parallel.
-int side_of_edge(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const ShaftAxis& axis) {
-  const ExactVector along{axis.trocar, axis.tip};
-  const int side = triple_product_sign(along, {axis.trocar, from}, {from, to});
-  return side != 0 ? side : cross_product_sign(along, {from, to});
-}
-
-}  // namespace
-
 bool is_on_face(const Triangle& face, const Eigen::Vector3d& point) {
   Eigen::AlignedBox3d box(face[0]);
   box.extend(face[1]).extend(face[2]);
@@ -127,9 +108,11 @@ bool is_on_face(const Triangle& face, const Eigen::Vector3d& point) {
   const int normal = cross_product_sign(first, second);
   for (std::size_t i = 0; i < 3; ++i) {
     const Eigen::Vector3d &from = face[i], &to = face[(i + 1) % 3];
+    const int side = cross_product_sign({from, to}, {from, point});
     if (normal == 0) {
-      if (is_on_segment(from, to, point)) return true;
-    } else if (cross_product_sign({from, to}, {from, point}) == -normal) {
+      const Eigen::AlignedBox3d edge(from.cwiseMin(to), from.cwiseMax(to));
+      if (side == 0 && edge.contains(point)) return true;
+    } else if (side == -normal) {
       // Both cross products are parallel to the normal: the signs tell if they point the same way.
       return false;
     }

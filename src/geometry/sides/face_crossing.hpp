@@ -11,7 +11,7 @@
 namespace organ_collision {
 
 /// An integer of any size, for the exact predicates. Only a number of more than 512 bits allocates
-/// memory. Numbers become that long only if coordinates span 40 orders of magnitude.
+/// memory. Numbers become that long only if coordinates span 30 orders of magnitude.
 using ExactInteger = boost::multiprecision::number<
     boost::multiprecision::cpp_int_backend<512, 0, boost::multiprecision::signed_magnitude,
                                            boost::multiprecision::unchecked>,

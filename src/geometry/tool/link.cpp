@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "organ_collision/geometry/tolerances.hpp"
-#include "organ_collision/geometry/tool/convex_core.hpp"
 
 namespace organ_collision {
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "geometry/concatenate.hpp"
-#include "geometry/coordinate_range.hpp"
+#include "geometry/plausible_size.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 
 namespace organ_collision {

@@ -9,7 +9,7 @@
 #include "common/messages/checked_messages.hpp"
 #include "common/messages/text.hpp"
 #include "geometry/concatenate.hpp"
-#include "geometry/coordinate_range.hpp"
+#include "geometry/plausible_size.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 
 namespace organ_collision {

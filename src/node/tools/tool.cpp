@@ -7,7 +7,7 @@
 
 #include "common/messages/text.hpp"
 #include "geometry/concatenate.hpp"
-#include "geometry/coordinate_range.hpp"
+#include "geometry/plausible_size.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 #include "robot_reader_client.hpp"
 

@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "geometry/concatenate.hpp"
-#include "geometry/coordinate_range.hpp"
+#include "geometry/plausible_size.hpp"
 
 namespace organ_collision {
 namespace {

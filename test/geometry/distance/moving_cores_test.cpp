@@ -8,7 +8,6 @@
 #include <limits>
 #include <optional>
 
-#include "geometry/distance/closest_approach.hpp"
 #include "geometry/distance/first_touch.hpp"
 #include "geometry/distance/separating_plane.hpp"
 #include "geometry/distance/work_budget.hpp"
@@ -291,7 +290,7 @@ TEST_P(SeparatedCores, StayBeyondThePlanes) {
     const double share = clear_share(from, to, core, radius);
     EXPECT_GE(share, 0.0);
     clear += share > 0.0;
-    const bool stays = stays_beyond(from.normal, core, face, radius);
+    const bool stays = FixedPlane(from.normal, core).keeps_beyond(face, radius);
     beyond += stays;
     const double until = stays ? 1.0 : begin + std::min(share, 1.0) * (end - begin);
     for (int step = 0; step < 20; ++step) {

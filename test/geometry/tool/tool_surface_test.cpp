@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/distance/surface_touch.hpp"
+#include "geometry/distance/first_touch.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 #include "test/proof/trial_suites.hpp"
 #include "tool_meshes.hpp"

@@ -122,7 +122,6 @@ class BlockBoxes {
 
  private:
   void fit_groups(const FaceClusters& clusters);
-  void add_borders(const FaceClusters& clusters);
 
   std::vector<Box> blocks_;
   std::vector<std::vector<Box>> groups_;  ///< by level; may have more levels than the clusters
