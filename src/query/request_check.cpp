@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <string>
 
 #include "geometry/concatenate.hpp"
-#include "geometry/coordinate_range.hpp"
+#include "geometry/plausible_size.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 #include "picking/volumes/paper_volumes.hpp"
 
@@ -207,15 +206,8 @@ void check_settings(const ProxyTool& tool, const ProxySettings& settings) {
 }
 
 void check_hand(const ProxyTool& tool, const ToolPose& hand) {
-  const bool has_shaft = tool.radius > 0.0;
-  const bool is_finite =
-      (!has_shaft || (hand.axis.trocar.allFinite() && hand.axis.tip.allFinite())) &&
-      std::all_of(hand.links.begin(), hand.links.end(),
-                  [](const Eigen::Isometry3d& link) { return link.matrix().allFinite(); });
-  if (!is_finite) refuse("the hand's pose has a value that is not finite");
-  if (hand.links.size() != tool.links.size()) {
-    refuse("the hand's pose has ", hand.links.size(), " links; the tool has ", tool.links.size());
-  }
+  if (tool.radius > 0.0) check_axis(hand.axis, "the hand's pose");
+  check_links(tool.links, hand.links, "the hand's pose");
 }
 
 void check_organs(const std::vector<ProxyOrgan>& organs) {

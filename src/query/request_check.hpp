@@ -18,7 +18,7 @@ inline constexpr double kRotationTolerance = 1e-9;
 void check(const CollisionRequest& request);
 
 /// The viewing volume of a request in one of the paper's modes, which check() has accepted. Throws
-/// VolumeError if the shaft is too short or too thin for the volume.
+/// if the shaft is too short or too thin for the volume.
 ViewingVolume paper_volume(const CollisionRequest& request);
 
 void check_tool(const ProxyTool& tool);

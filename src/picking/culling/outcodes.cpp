@@ -49,15 +49,17 @@ PointRun load_points(Coordinates xyz) {
   return run;
 }
 
-ValueRun between(const ValueRun& before, const ValueRun& after, float fraction) {
+/// A run of value(0), value(1) ...
+template <typename Value>
+ValueRun run_of(Value value) {
   ValueRun run;
-  for (std::size_t i = 0; i < run.size(); ++i) {
-    run[i] = before[i] + fraction * (after[i] - before[i]);
-  }
+  for (std::size_t i = 0; i < run.size(); ++i) run[i] = value(i);
   return run;
 }
 
-Lanes magnitude(const Lanes& low, const Lanes& high) { return high > -low ? high : -low; }
+ValueRun between(const ValueRun& before, const ValueRun& after, float fraction) {
+  return run_of([&](std::size_t i) { return before[i] + fraction * (after[i] - before[i]); });
+}
 
 /// The points at a fraction of their linear motion.
 PointRun between(const PointRun& before, const PointRun& after, float fraction) {
@@ -65,28 +67,15 @@ PointRun between(const PointRun& before, const PointRun& after, float fraction) 
           between(before.z, after.z, fraction)};
 }
 
+Lanes magnitude(const Lanes& low, const Lanes& high) { return high > -low ? high : -low; }
+
 /// [m] For each box, the sum of the largest magnitudes of x, of y and of z in the box.
 ValueRun magnitude(const BoxRun& boxes) {
   const auto& [low, high] = boxes;
-  ValueRun sum;
-  for (std::size_t i = 0; i < sum.size(); ++i) {
-    sum[i] = magnitude(low.x[i], high.x[i]) + magnitude(low.y[i], high.y[i]) +
-             magnitude(low.z[i], high.z[i]);
-  }
-  return sum;
-}
-
-/// The greater value of each pair of elements.
-ValueRun greater(const ValueRun& a, const ValueRun& b) {
-  ValueRun run;
-  for (std::size_t i = 0; i < run.size(); ++i) run[i] = a[i] > b[i] ? a[i] : b[i];
-  return run;
-}
-
-ValueRun scaled(const ValueRun& values, float factor) {
-  ValueRun run;
-  for (std::size_t i = 0; i < run.size(); ++i) run[i] = factor * values[i];
-  return run;
+  return run_of([&, &low = low, &high = high](std::size_t i) {
+    return magnitude(low.x[i], high.x[i]) + magnitude(low.y[i], high.y[i]) +
+           magnitude(low.z[i], high.z[i]);
+  });
 }
 
 constexpr std::size_t kGroup = FaceClusters::kGroup;
@@ -120,7 +109,14 @@ BoxRun between(const BoxRun& before, const BoxRun& after, double fraction) {
 
 void Outcodes::assign(const ViewingVolume& volume, const OrganMotion& organ) {
   organ_.emplace(organ);
-  set_planes(volume);
+  planes_.clear();
+  for (std::size_t i = 0; i < volume.half_space_count(); ++i) {
+    const HalfSpace half_space = volume.half_space(i);
+    const Eigen::Vector3f normal = half_space.normal.cast<float>();
+    const double offset = half_space.offset + half_space.normal.dot(volume.origin());
+    const double slack = kSlack * std::abs(offset);
+    planes_.push_back({normal.x(), normal.y(), normal.z(), static_cast<float>(offset + slack)});
+  }
   ++query_;
   group_codes_.resize(std::max(group_codes_.size(), clusters().level_count()));
   for (std::size_t level = 0; level < clusters().level_count(); ++level) {
@@ -131,17 +127,6 @@ void Outcodes::assign(const ViewingVolume& volume, const OrganMotion& organ) {
   section_found_for_.resize(clusters().group_count(0));
   block_found_for_.resize(clusters().block_count());
   find_group_codes(clusters().level_count() - 1, 0);
-}
-
-void Outcodes::set_planes(const ViewingVolume& volume) {
-  planes_.clear();
-  for (std::size_t i = 0; i < volume.half_space_count(); ++i) {
-    const HalfSpace half_space = volume.half_space(i);
-    const Eigen::Vector3f normal = half_space.normal.cast<float>();
-    const double offset = half_space.offset + half_space.normal.dot(volume.origin());
-    const double slack = kSlack * std::abs(offset);
-    planes_.push_back({normal.x(), normal.y(), normal.z(), static_cast<float>(offset + slack)});
-  }
 }
 
 /// Finds the outcodes of kGroup groups of a level, from the group `begin` on.
@@ -218,10 +203,13 @@ void Outcodes::find_codes(LoadAfter load_after, LoadBefore load_before, Code* co
   const BoxRun after = load_after();
   CodeRun outside;
   if (organ_->rests()) {
-    outside = codes_of(after, scaled(magnitude(after), kSlack));
+    const ValueRun most = magnitude(after);
+    outside = codes_of(after, run_of([&](std::size_t i) { return kSlack * most[i]; }));
   } else {
     const BoxRun before = load_before();
-    const ValueRun slack = scaled(greater(magnitude(before), magnitude(after)), kSlackBetween);
+    const ValueRun a = magnitude(before), b = magnitude(after);
+    const ValueRun slack =
+        run_of([&](std::size_t i) { return kSlackBetween * (a[i] > b[i] ? a[i] : b[i]); });
     outside = codes_of(between(before, after, organ_->begin()), slack);
     const CodeRun at_finish = codes_of(between(before, after, organ_->finish()), slack);
     for (std::size_t i = 0; i < outside.size(); ++i) outside[i] &= at_finish[i];

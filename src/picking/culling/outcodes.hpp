@@ -52,7 +52,6 @@ class Outcodes {
   bool face_is_outside(const FaceIndices& corners) const {
     return (vertex_codes_[corners[0]] & vertex_codes_[corners[1]] & vertex_codes_[corners[2]]) != 0;
   }
-  void set_planes(const ViewingVolume& volume);
   void find_group_codes(std::size_t level, std::size_t begin);
   void find_block_codes(std::size_t section);
   void find_member_codes(const BlockBoxes::Box* after, const BlockBoxes::Box* before,

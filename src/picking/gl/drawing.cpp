@@ -6,37 +6,7 @@
 #include <string>
 
 namespace organ_collision {
-
 namespace {
-
-// The matrix clip() is loaded as the modelview matrix, and the projection stays the identity. GL's
-// eye coordinates are then clip coordinates, in which the user planes are given. Otherwise GL would
-// transform the planes by the inverse of the projection, in 32 bits, and lose the precision that
-// shifted coordinates give.
-//
-// All user planes stay enabled, because Mesa takes some 20 ms to compile its vertex pipeline for
-// each new number of them. Unused planes are zero, so they clip nothing.
-void clip_to(const ViewingVolume& volume, const GlFunctions& gl) {
-  gl.LoadIdentity();
-  const Eigen::Matrix4d clip_inverse = volume.clip().inverse();
-  for (std::size_t i = 0; i < ViewingVolume::kMaxUserPlanes; ++i) {
-    Eigen::RowVector4d plane = Eigen::RowVector4d::Zero();
-    if (i < volume.user_plane_count()) plane = volume.user_planes()[i].transpose() * clip_inverse;
-    gl.ClipPlane(GL_CLIP_PLANE0 + static_cast<GLenum>(i), plane.data());
-  }
-  gl.LoadMatrixd(volume.clip().data());
-}
-
-// Positions and numbers have different strides on purpose. Mesa joins interleaved arrays of the
-// same stride to one vertex buffer. It stops doing so when the pointers have changed a few times,
-// as when arrays grow, and compiles its vertex pipeline anew: some 20 ms in the middle of a step.
-void draw_from(const DrawnFaces& faces, const GlFunctions& gl) {
-  using Position = DrawnFaces::Position;
-  using Number = DrawnFaces::Number;
-  static_assert(sizeof(Position) != sizeof(Number));
-  gl.VertexPointer(3, GL_FLOAT, sizeof(Position), faces.first_position().data());
-  gl.TexCoordPointer(2, GL_FLOAT, sizeof(Number), faces.first_number().data());
-}
 
 // [1] The size of the largest buffer: GL counts its floats with an integer.
 constexpr std::size_t kMostFloats = std::numeric_limits<GLsizei>::max();
@@ -50,25 +20,60 @@ std::size_t most_floats(std::size_t faces) {
   return faces * (1 + kPlanes) * kTriangle;
 }
 
-bool is_blind(GlContext& context) {
-  if (!context.is_current()) return true;
-  const ViewingVolume box =
-      ViewingVolume::orthographic({Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
-                                   Eigen::Matrix3d::Identity(), -1, 1, -1, 1, -1, 1});
-  DrawnFaces face;
-  face.add(middle_face(box), kWitness);
-  std::vector<float> buffer(100);
-  return draw_feedback(context, box, face, buffer) == 0;
+std::uint32_t face_number(float lower, float upper) {
+  return static_cast<std::uint32_t>(lower) | static_cast<std::uint32_t>(upper) << 16;
 }
 
 }  // namespace
 
+void DrawnFaces::clear() {
+  positions_.clear();
+  numbers_.clear();
+}
+
+void DrawnFaces::add(const Triangle& face, std::uint32_t number) {
+  std::array<Position, 3>& positions = positions_.emplace_back();
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      positions[i][axis] = static_cast<float>(face[i][static_cast<Eigen::Index>(axis)]);
+    }
+  }
+  const Number halves = {static_cast<float>(number & 0xffff), static_cast<float>(number >> 16)};
+  numbers_.push_back({halves, halves, halves});
+}
+
+std::uint32_t DrawnFaces::number(std::size_t face) const {
+  const auto& [lower, upper] = numbers_[face].front();
+  return face_number(lower, upper);
+}
+
+// The matrix clip() is loaded as the modelview matrix, and the projection stays the identity. GL's
+// eye coordinates are then clip coordinates, in which the user planes are given. Otherwise GL would
+// transform the planes by the inverse of the projection, in 32 bits, and lose the precision that
+// shifted coordinates give.
 const GlFunctions& prepare_to_draw(GlContext& context, const ViewingVolume& volume,
                                    const DrawnFaces& faces) {
   context.make_current();
-  clip_to(volume, context.functions());
-  draw_from(faces, context.functions());
-  return context.functions();
+  const GlFunctions& gl = context.functions();
+  gl.LoadIdentity();
+  // All user planes stay enabled, because Mesa takes some 20 ms to compile its vertex pipeline for
+  // each new number of them. Unused planes are zero, so they clip nothing.
+  const Eigen::Matrix4d clip_inverse = volume.clip().inverse();
+  for (std::size_t i = 0; i < ViewingVolume::kMaxUserPlanes; ++i) {
+    Eigen::RowVector4d plane = Eigen::RowVector4d::Zero();
+    if (i < volume.user_plane_count()) plane = volume.user_planes()[i].transpose() * clip_inverse;
+    gl.ClipPlane(GL_CLIP_PLANE0 + static_cast<GLenum>(i), plane.data());
+  }
+  gl.LoadMatrixd(volume.clip().data());
+  // Positions and numbers have different strides on purpose. Mesa joins interleaved arrays of the
+  // same stride to one vertex buffer. It stops doing so when the pointers have changed a few times,
+  // as when arrays grow, and compiles its vertex pipeline anew: some 20 ms in the middle of a step.
+  using Position = DrawnFaces::Position;
+  using Number = DrawnFaces::Number;
+  static_assert(sizeof(Position) != sizeof(Number));
+  gl.VertexPointer(3, GL_FLOAT, sizeof(Position), faces.first_position().data());
+  gl.TexCoordPointer(2, GL_FLOAT, sizeof(Number), faces.first_number().data());
+  return gl;
 }
 
 std::uint32_t face_of(const float* vertex) {
@@ -122,7 +127,15 @@ std::size_t read_token(const std::vector<float>& buffer, std::size_t size, std::
 }
 
 void fail_if_blind(GlContext& context) {
-  if (!is_blind(context)) return;
+  if (context.is_current()) {
+    const ViewingVolume box =
+        ViewingVolume::orthographic({Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
+                                     Eigen::Matrix3d::Identity(), -1, 1, -1, 1, -1, 1});
+    DrawnFaces face;
+    face.add(middle_face(box), kWitness);
+    std::vector<float> buffer(100);
+    if (draw_feedback(context, box, face, buffer) > 0) return;
+  }
   context.fail(
       "OpenGL does not return a face that is in view, so its answer means nothing: its context or "
       "framebuffer was lost or taken; the next query gets a new one");

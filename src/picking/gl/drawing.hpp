@@ -1,15 +1,38 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "gl_context.hpp"
-#include "picking/culling/draw_list.hpp"
 #include "picking/volumes/viewing_volume.hpp"
 
 namespace organ_collision {
+
+/// Faces as GL reads them. Each corner has the number of its face as a texture coordinate, which GL
+/// returns. Positions and numbers are two arrays with different strides: see prepare_to_draw().
+class DrawnFaces {
+ public:
+  using Position = std::array<float, 3>;  ///< in the volume's shifted coordinates [m]
+  using Number = std::array<float, 2>;    ///< the lower and upper 16 bits; floats hold both exactly
+
+  void clear();
+  /// Adds a face in the volume's shifted coordinates.
+  void add(const Triangle& face, std::uint32_t number);
+
+  bool empty() const { return positions_.empty(); }
+  std::size_t size() const { return positions_.size(); }
+  std::uint32_t number(std::size_t face) const;
+
+  /// The arrays for GL, with an element for each corner. There must be some faces.
+  const Position& first_position() const { return positions_.front().front(); }
+  const Number& first_number() const { return numbers_.front().front(); }
+
+ private:
+  std::vector<std::array<Position, 3>> positions_;
+  std::vector<std::array<Number, 3>> numbers_;
+};
 
 /// Makes the context current. Until the next call, GL clips to `volume`, and DrawArrays draws the
 /// corners of `faces`, with the faces' numbers as texture coordinates. `faces` must not be empty

@@ -36,17 +36,12 @@ bool make_latest(PlatformContext& context) {
   return context.make_current();
 }
 
-PlatformContext::AnyFunction find_in(const PlatformContext& context, const char* name) {
-  const PlatformContext::AnyFunction function = context.find_function(name);
-  if (function == nullptr) throw GlError(std::string("OpenGL has no function ") + name);
-  return function;
-}
-
 /// Loads all functions. Throws GlError that names the first missing one.
 GlFunctions load_functions(const PlatformContext& context) {
   GlFunctions functions;
-#define ORGAN_COLLISION_LOAD(name) \
-  functions.name = reinterpret_cast<decltype(functions.name)>(find_in(context, "gl" #name));
+#define ORGAN_COLLISION_LOAD(name)                                                                \
+  functions.name = reinterpret_cast<decltype(functions.name)>(context.find_function("gl" #name)); \
+  if (functions.name == nullptr) throw GlError("OpenGL has no function gl" #name);
   ORGAN_COLLISION_GL_FUNCTIONS(ORGAN_COLLISION_LOAD)
 #undef ORGAN_COLLISION_LOAD
   return functions;
@@ -54,27 +49,20 @@ GlFunctions load_functions(const PlatformContext& context) {
 
 }  // namespace
 
-struct GlContext::Source {
-  GlPlatform platform;
-  const char* name;
-  std::unique_ptr<PlatformContext> (*create)();
-};
-
 GlContext::GlContext(GlPlatform platform) : platform_(platform) { make(); }
 
 /// Makes a context of the first platform that gives a context which works.
 void GlContext::make() {
-  static constexpr std::array<Source, 2> kSources = {
-      {{GlPlatform::kOsmesa, "OSMesa", new_osmesa_context},
-       {GlPlatform::kEgl, "EGL", new_egl_context}}};
   check_driver();
   std::string reasons;
-  for (const Source& source : kSources) {
-    if (platform_ != GlPlatform::kAuto && platform_ != source.platform) continue;
+  for (const GlPlatform platform : {GlPlatform::kOsmesa, GlPlatform::kEgl}) {
+    if (platform_ != GlPlatform::kAuto && platform_ != platform) continue;
+    const bool is_osmesa = platform == GlPlatform::kOsmesa;
+    const char* const name = is_osmesa ? "OSMesa" : "EGL";
     try {
-      return make(source);
+      return take(is_osmesa ? new_osmesa_context() : new_egl_context(), name);
     } catch (const GlError& error) {
-      reasons += std::string(source.name) + ": " + error.what() + "; ";
+      reasons += std::string(name) + ": " + error.what() + "; ";
     }
   }
   throw GlError("OpenGL gives no context to pick with: " + reasons +
@@ -82,10 +70,9 @@ void GlContext::make() {
                 "without OpenGL (picker: cpu)");
 }
 
-/// Makes a context of a platform and leaves it current. If it does not work, throws GlError and
-/// changes nothing in this object.
-void GlContext::make(const Source& source) {
-  std::unique_ptr<PlatformContext> context = source.create();
+/// Takes over a new context and leaves it current. If it does not work, throws GlError and changes
+/// nothing in this object.
+void GlContext::take(std::unique_ptr<PlatformContext> context, const char* platform) {
   if (!make_latest(*context)) throw GlError("the new context cannot be made current");
   const GlFunctions gl = load_functions(*context);
   const GLubyte* const version = gl.GetString(GL_VERSION);
@@ -98,7 +85,7 @@ void GlContext::make(const Source& source) {
   gl.EnableClientState(GL_VERTEX_ARRAY);
   gl.EnableClientState(GL_TEXTURE_COORD_ARRAY);
   for (GLenum i = 0; i < ViewingVolume::kMaxUserPlanes; ++i) gl.Enable(GL_CLIP_PLANE0 + i);
-  version_ = std::string(reinterpret_cast<const char*>(version)) + " on " + source.name;
+  version_ = std::string(reinterpret_cast<const char*>(version)) + " on " + platform;
   context_ = std::move(context);
   functions_ = gl;
   has_failed_ = false;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <GL/gl.h>
-#include <dlfcn.h>
 
 #include <memory>
 #include <string>
@@ -41,28 +40,6 @@ class PlatformContext {
 // Both functions throw GlError if the platform gives no context.
 std::unique_ptr<PlatformContext> new_osmesa_context();
 std::unique_ptr<PlatformContext> new_egl_context();
-
-/// A shared library that is loaded when it is first needed, so that the package builds and runs
-/// without it. It stays loaded until the process ends: Mesa does not survive being unloaded.
-class SharedLibrary {
- public:
-  /// Loads the library of this name, for example "libEGL.so.1". Throws GlError with the reason.
-  explicit SharedLibrary(const char* name)
-      : name_(name), handle_(dlopen(name, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE)) {
-    if (handle_ == nullptr) throw GlError(dlerror());
-  }
-
-  /// Sets `function` to the library's function `name`. Throws GlError if there is none.
-  template <typename Function>
-  void load(const char* name, Function*& function) const {
-    function = reinterpret_cast<Function*>(dlsym(handle_, name));
-    if (function == nullptr) throw GlError(std::string(name_) + " has no function " + name);
-  }
-
- private:
-  const char* name_;
-  void* handle_;
-};
 
 /// Pointers to the GL functions that a context provides. Their types come from gl.h. libGL is not
 /// linked.
@@ -104,8 +81,7 @@ class GlContext {
 
  private:
   void make();
-  struct Source;
-  void make(const Source& source);
+  void take(std::unique_ptr<PlatformContext> context, const char* platform);
 
   GlPlatform platform_;
   std::unique_ptr<PlatformContext> context_;

@@ -1,9 +1,10 @@
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "picker.hpp"
-#include "picking/culling/draw_list.hpp"
+#include "picking/culling/outcodes.hpp"
 #include "picking/gl/drawing.hpp"
 
 namespace organ_collision {
@@ -24,6 +25,13 @@ double window_depth(std::uint32_t recorded) {
   return (depth - kNearDepth) / (kFarDepth - kNearDepth);
 }
 
+// [1] A face is not drawn if it moves by more than kMostMove times the part's thickness, or if one
+// of its coordinates exceeds kMostExtent times that thickness. For such a face, the volume would
+// grow so much that many other faces would survive clipping. With kMostExtent the volume grows by
+// 1% of the thickness, since 32-bit clipping loses a millionth of the largest coordinate.
+constexpr double kMostMove = 0.5;
+constexpr double kMostExtent = 0.01 / 1e-6;
+
 class GlPicker final : public Picker {
  public:
   explicit GlPicker(const PickerSettings& settings)
@@ -36,12 +44,17 @@ class GlPicker final : public Picker {
 
   void pick(const ViewingVolume& volume, const TriangleMesh& mesh,
             std::vector<Candidate>& candidates) override {
+    start(volume);
+    const auto draw = [&](const FaceIndices& corners, std::uint32_t number) {
+      faces_.add(shifted(mesh.triangle(corners), volume.origin()), number);
+    };
     if (selects_) {
-      draw_list_.assign_all(volume, mesh);
+      for (std::uint32_t i = 0; i < mesh.face_count(); ++i) draw(mesh.faces()[i], i);
     } else {
-      draw_list_.assign(volume, mesh);
+      outcodes_.assign(volume, OrganMotion(mesh));
+      outcodes_.for_each_face(
+          [&](const FaceClusters::Face& face) { draw(face.corners, face.number); });
     }
-    counts_.drawn += faces().size();
     add_witness();
     if (!clip(candidates)) {
       fail_if_blind(context_);
@@ -54,15 +67,18 @@ class GlPicker final : public Picker {
 
   void pick(const PartSweep& part, const OrganMotion& organ,
             std::vector<Candidate>& candidates) override {
-    draw_list_.assign(part, organ);
-    counts_.drawn += faces().size();
-    counts_.undrawn += draw_list_.undrawn().size();
+    list_faces(part, organ);
+    counts_.undrawn += undrawn_.size();
     add_witness();
     if (!clip(candidates)) {
       fail_if_blind(context_);
-      take_drawn(candidates);  // So no contact is missed.
+      // All drawn faces, except the witness, are candidates then. So no contact is missed.
+      candidates.clear();
+      for (std::size_t i = 0; i + 1 < faces_.size(); ++i) {
+        candidates.push_back({faces_.number(i), 0.0, 0.0});
+      }
     }
-    for (const std::uint32_t face : draw_list_.undrawn()) candidates.push_back({face, 0.0, 0.0});
+    for (const std::uint32_t face : undrawn_) candidates.push_back({face, 0.0, 0.0});
     sort(organ.after().face_count(), candidates);
   }
 
@@ -70,18 +86,52 @@ class GlPicker final : public Picker {
   const std::string& gl_version() const override { return context_.version(); }
 
  private:
-  const DrawnFaces& faces() const { return draw_list_.faces(); }
+  void start(const ViewingVolume& volume) {
+    volume_ = volume;
+    faces_.clear();
+    undrawn_.clear();
+  }
+
+  /// Lists the faces of an organ that may meet a part during their motion and that outcodes do not
+  /// reject. Each face is drawn where it is half way. The volume contains the space that the part
+  /// sweeps, grown by the largest distance of a drawn face from its place half way, and grown for
+  /// 32-bit clipping. Some faces are not drawn: those with a corner inside, which meet the volume
+  /// anyway, and those that move or reach so far that the volume would become large.
+  void list_faces(const PartSweep& part, const OrganMotion& organ) {
+    const Eigen::Vector3d& origin = part.origin();
+    const double organ_extent = organ.extent(origin);
+    const double most_extent = std::min(organ_extent, kMostExtent * part.thickness());
+    const double most_move = kMostMove * part.thickness();
+    double farthest_move = 0.0;
+    start(part.volume({0.0, most_extent}));
+    outcodes_.assign(*volume_, organ);
+    outcodes_.for_each_face([&](const FaceClusters::Face& face) {
+      if (outcodes_.has_corner_inside(face.corners)) return undrawn_.push_back(face.number);
+      const FaceMotion motion = organ.face(face.corners);
+      const double move = organ.rests() ? 0.0 : 0.5 * motion.farthest_move();
+      const Triangle half_way = shifted(organ.rests() ? motion.end : motion.at(0.5), origin);
+      if (move > most_move ||
+          (organ_extent > most_extent && largest_coordinate(half_way) > most_extent)) {
+        undrawn_.push_back(face.number);
+      } else {
+        farthest_move = std::max(farthest_move, move);
+        faces_.add(half_way, face.number);
+      }
+    });
+    if (farthest_move > 0.0) volume_ = part.volume({farthest_move, most_extent});
+  }
 
   /// Adds the witness (see kWitness) as the last face that GL draws.
   void add_witness() {
-    if (!faces().empty()) draw_list_.add(middle_face(draw_list_.volume()), kWitness);
+    counts_.drawn += faces_.size();
+    if (!faces_.empty()) faces_.add(middle_face(*volume_), kWitness);
   }
 
-  /// Replaces `candidates` by the faces of the draw list that meet the volume. Returns whether GL
-  /// returned the witness, too, or had nothing to draw.
+  /// Replaces `candidates` by the drawn faces that meet the volume. Returns whether GL returned the
+  /// witness, too, or had nothing to draw.
   bool clip(std::vector<Candidate>& candidates) {
     candidates.clear();
-    if (faces().empty()) return true;
+    if (faces_.empty()) return true;
     if (selects_) {
       select(candidates);
     } else {
@@ -95,11 +145,10 @@ class GlPicker final : public Picker {
   /// Adds the faces that GL returns in GL_FEEDBACK mode, in the order drawn. GL may split a face
   /// into several primitives, which follow each other.
   void feed_back(std::vector<Candidate>& candidates) {
-    const ViewingVolume& volume = draw_list_.volume();
-    const std::size_t size = draw_feedback(context_, volume, faces(), feedback_);
+    const std::size_t size = draw_feedback(context_, *volume_, faces_, feedback_);
     try {
       for_each_vertex(feedback_, size, [&](std::uint32_t face, double window_depth) {
-        const double depth = volume.view_depth(window_depth);
+        const double depth = volume_->view_depth(window_depth);
         if (candidates.empty() || candidates.back().face != face) {
           candidates.push_back({face, depth, depth});
         }
@@ -114,27 +163,26 @@ class GlPicker final : public Picker {
 
   /// Adds the faces that GL returns in GL_SELECT mode, in the order drawn.
   void select(std::vector<Candidate>& candidates) {
-    const ViewingVolume& volume = draw_list_.volume();
-    hits_.resize(kRecord * faces().size());
+    hits_.resize(kRecord * faces_.size());
     const std::size_t count = draw_named();
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t* const record = &hits_[kRecord * i];
-      candidates.push_back({record[3], volume.view_depth(window_depth(record[1])),
-                            volume.view_depth(window_depth(record[2]))});
+      candidates.push_back({record[3], volume_->view_depth(window_depth(record[1])),
+                            volume_->view_depth(window_depth(record[2]))});
     }
   }
 
   /// Draws each face under its own name, and returns the number of hits. Does not use glBegin and
   /// glEnd: in GL_SELECT mode, Mesa 22.3 then leaks buffers of 512 KB.
   std::size_t draw_named() {
-    const GlFunctions& gl = prepare_to_draw(context_, draw_list_.volume(), faces());
+    const GlFunctions& gl = prepare_to_draw(context_, *volume_, faces_);
     gl.DepthRange(kNearDepth, kFarDepth);
     gl.SelectBuffer(static_cast<GLsizei>(hits_.size()), hits_.data());
     gl.RenderMode(GL_SELECT);
     gl.InitNames();
     gl.PushName(0);
-    for (std::size_t i = 0; i < faces().size(); ++i) {
-      gl.LoadName(faces().number(i));
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+      gl.LoadName(faces_.number(i));
       gl.DrawArrays(GL_TRIANGLES, static_cast<GLint>(3 * i), 3);
     }
     const GLint count = gl.RenderMode(GL_RENDER);
@@ -143,16 +191,7 @@ class GlPicker final : public Picker {
       return static_cast<std::size_t>(count);
     }
     context_.fail("OpenGL returns " + std::to_string(count) + " hits, with space for " +
-                  std::to_string(faces().size()));
-  }
-
-  /// Replaces `candidates` by all faces of the draw list, except the witness.
-  void take_drawn(std::vector<Candidate>& candidates) const {
-    candidates.clear();
-    for (std::size_t i = 0; i < faces().size(); ++i) {
-      const std::uint32_t face = faces().number(i);
-      if (face != kWitness) candidates.push_back({face, 0.0, 0.0});
-    }
+                  std::to_string(faces_.size()));
   }
 
   /// Sorts the candidates. Fails if a candidate's number is that of no face of the mesh.
@@ -164,8 +203,11 @@ class GlPicker final : public Picker {
   }
 
   GlContext context_;
-  const bool selects_;  ///< whether it draws in GL_SELECT mode
-  DrawList draw_list_;
+  const bool selects_;                   ///< whether it draws in GL_SELECT mode
+  std::optional<ViewingVolume> volume_;  ///< to which GL clips
+  DrawnFaces faces_;                     ///< the faces that GL draws
+  std::vector<std::uint32_t> undrawn_;   ///< candidates that are not drawn
+  Outcodes outcodes_;
   std::vector<float> feedback_ = std::vector<float>(4096);
   std::vector<std::uint32_t> hits_;
 };

@@ -62,17 +62,6 @@ class CpuPicker final : public Picker {
   const std::string gl_version_ = "none (picker: cpu)";
 };
 
-std::unique_ptr<Picker> new_picker(const PickerSettings& settings) {
-  switch (settings.kind) {
-    case PickerKind::kFeedback:
-    case PickerKind::kSelect:
-      return new_gl_picker(settings);
-    case PickerKind::kCpu:
-      return std::make_unique<CpuPicker>();
-  }
-  throw std::invalid_argument("unknown kind of picker");
-}
-
 // A box of 2 m by 2 m by 2 m, of which a user plane cuts off one edge.
 ViewingVolume check_volume() {
   ViewingVolume volume =
@@ -91,22 +80,6 @@ TriangleMesh check_mesh() {
           {0, 1, 2, 3, 4, 5, 6, 7, 8}};
 }
 
-std::unique_ptr<Picker> checked(std::unique_ptr<Picker> picker) {
-  std::vector<Candidate> candidates;
-  picker->pick(check_volume(), check_mesh(), candidates);
-  if (candidates.size() == 1 && candidates[0].face == 2) {
-    picker->release();
-    return picker;
-  }
-  std::string picked;
-  for (const Candidate& candidate : candidates) picked += " " + std::to_string(candidate.face);
-  throw GlError(
-      "OpenGL picking does not work here: of three faces only number 2 is in view, picked"
-      " were:" +
-      (picked.empty() ? " none" : picked) + "; OpenGL version: " + picker->gl_version() +
-      "; install another version of Mesa, or pick without OpenGL (picker: cpu)");
-}
-
 /// The value of the choice with this name. `setting`: what is chosen.
 template <typename Choices>
 auto named(const std::string& setting, const Choices& choices, const std::string& name) {
@@ -121,7 +94,25 @@ auto named(const std::string& setting, const Choices& choices, const std::string
 }  // namespace
 
 std::unique_ptr<Picker> make_picker(const PickerSettings& settings) {
-  return checked(new_picker(settings));
+  std::unique_ptr<Picker> picker;
+  if (settings.kind == PickerKind::kCpu) {
+    picker = std::make_unique<CpuPicker>();
+  } else {
+    picker = new_gl_picker(settings);
+  }
+  std::vector<Candidate> candidates;
+  picker->pick(check_volume(), check_mesh(), candidates);
+  if (candidates.size() == 1 && candidates[0].face == 2) {
+    picker->release();
+    return picker;
+  }
+  std::string picked;
+  for (const Candidate& candidate : candidates) picked += " " + std::to_string(candidate.face);
+  throw GlError(
+      "OpenGL picking does not work here: of three faces only number 2 is in view, picked"
+      " were:" +
+      (picked.empty() ? " none" : picked) + "; OpenGL version: " + picker->gl_version() +
+      "; install another version of Mesa, or pick without OpenGL (picker: cpu)");
 }
 
 std::vector<PickerKind> picker_kinds() {

@@ -2,54 +2,13 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <iterator>
 #include <optional>
 
 namespace organ_collision {
 namespace {
 
-using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-/// A convex polygon with up to four corners, counterclockwise. No corner lies inside an edge.
-struct ConvexHull {
-  std::array<Vector2d, 4> corners;
-  std::size_t count = 0;
-};
-
-bool turns_left(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
-  const Vector2d ab = b - a;
-  const Vector2d ac = c - a;
-  return ab.x() * ac.y() - ab.y() * ac.x() > 0;
-}
-
-// Adds the corners on one side of the hull, from the first point to the last one, without the last.
-template <typename Iterator>
-void add_chain(Iterator first, Iterator last, ConvexHull& hull) {
-  std::array<Vector2d, 4> chain;
-  std::size_t count = 0;
-  for (; first != last; ++first) {
-    while (count >= 2 && !turns_left(chain[count - 2], chain[count - 1], *first)) --count;
-    chain[count++] = *first;
-  }
-  for (std::size_t i = 0; i + 1 < count; ++i) hull.corners[hull.count++] = chain[i];
-}
-
-/// The hull of the points: one corner if all coincide, two if they lie on a line. Follows Andrew,
-/// "Another efficient algorithm for convex hulls in two dimensions" (1979).
-ConvexHull convex_hull(std::array<Vector2d, 4> points) {
-  std::sort(points.begin(), points.end(), [](const Vector2d& a, const Vector2d& b) {
-    return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
-  });
-  const auto end = std::unique(points.begin(), points.end());
-  if (end - points.begin() == 1) return {points, 1};
-  ConvexHull hull;
-  add_chain(points.begin(), end, hull);
-  add_chain(std::make_reverse_iterator(end), points.rend(), hull);
-  return hull;
-}
 
 /// [1] How far 32-bit clipping may displace the planes of a volume, as shares of the largest
 /// coordinate. See doc/theory/geometry.md, Outcodes and 32-bit clipping.
@@ -156,15 +115,22 @@ ViewingVolume cut_box(const Ends& ends, double radius, double extent, const Roun
       ViewingVolume::orthographic({ends.origin, Vector3d::Zero(), axes, low.x(), high.x(), low.y(),
                                    high.y(), low.z(), high.z()});
 
-  std::array<Vector2d, 4> outline;
-  for (int i = 0; i < 4; ++i) outline[i] = {points(0, i), points(2, i)};
-  const ConvexHull hull = convex_hull(outline);
-  for (std::size_t i = 0; i < hull.count && hull.count > 1; ++i) {
-    const Vector2d edge = hull.corners[(i + 1) % hull.count] - hull.corners[i];
-    const Vector3d normal = Vector3d(edge.y(), 0, -edge.x()).stableNormalized();
-    const double offset = (normal.transpose() * points).maxCoeff() + grown;
+  const auto is_at = [&](int i, int j) {
+    return points(0, i) == points(0, j) && points(2, i) == points(2, j);
+  };
+  const auto is_repeated = [&](int i) {
+    return (i > 0 && is_at(i, 0)) || (i > 1 && is_at(i, 1)) || (i > 2 && is_at(i, 2));
+  };
+  for (int pair = 0; pair < 16; ++pair) {
+    const int from = pair / 4, to = pair % 4;
+    if (from == to || is_repeated(from) || is_repeated(to)) continue;
+    const Vector3d edge = points.col(to) - points.col(from);
+    const Vector3d normal = Vector3d(edge.z(), 0, -edge.x()).stableNormalized();
+    const Eigen::RowVector4d places = normal.transpose() * points;
+    const bool is_of_hull = places.maxCoeff() <= std::max(places[from], places[to]);
+    const double offset = places.maxCoeff() + grown;
     const double box_offset = normal.cwiseProduct(low).cwiseMax(normal.cwiseProduct(high)).sum();
-    if (box_offset - offset > kWorthCutting * radius) {
+    if (is_of_hull && box_offset - offset > kWorthCutting * radius) {
       volume.add_user_plane({axes * normal, offset});
     }
   }

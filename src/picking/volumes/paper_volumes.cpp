@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <optional>
+#include <stdexcept>
 
 #include "geometry/concatenate.hpp"
-#include "viewing_volume.hpp"
 
 namespace organ_collision {
 namespace {
@@ -23,14 +23,15 @@ constexpr double kThinnest = 1e-6;
 
 void check_size(double length, double radius) {
   if (!(length >= kLeastSize)) {
-    throw VolumeError(concatenate("trocar and tip are ", length,
-                                  " m apart; the paper's volumes need at least ", kLeastSize,
-                                  " m"));
+    throw std::invalid_argument(concatenate("trocar and tip are ", length,
+                                            " m apart; the paper's volumes need at least ",
+                                            kLeastSize, " m"));
   }
   const double thinnest = std::max(kThinnest * length, kLeastSize);
   if (!(radius >= thinnest)) {
-    throw VolumeError(concatenate("radius is ", radius, " m; the paper's volumes of a shaft of ",
-                                  length, " m need at least ", thinnest, " m"));
+    throw std::invalid_argument(concatenate("radius is ", radius,
+                                            " m; the paper's volumes of a shaft of ", length,
+                                            " m need at least ", thinnest, " m"));
   }
 }
 

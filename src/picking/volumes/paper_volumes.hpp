@@ -1,7 +1,5 @@
 #pragma once
 
-#include <stdexcept>
-
 #include "organ_collision/geometry/tool/shaft.hpp"
 #include "viewing_volume.hpp"
 
@@ -11,14 +9,9 @@ namespace organ_collision {
 /// (1999), as published. They miss some faces near the sides and the end of a swept tool, and they
 /// are not grown for 32-bit clipping. Radii are in metres.
 ///
-/// The three functions throw VolumeError for a shaft whose volume would be lost in the rounding of
-/// 32-bit clipping. Such a shaft is shorter than 1e-9 m, or its radius is below 1e-9 m or below a
-/// millionth of its length.
-
-/// The shaft is too short or too thin for the volume. what() names the value and what is legal.
-class VolumeError : public std::invalid_argument {
-  using std::invalid_argument::invalid_argument;
-};
+/// The three functions throw std::invalid_argument, naming the value and what is legal, for a shaft
+/// whose volume would be lost in the rounding of 32-bit clipping. Such a shaft is shorter than 1e-9
+/// m, or its radius is below 1e-9 m or below a millionth of its length.
 
 /// The static volume (section 3): a box of half-width `radius` around the axis, flat at both ends.
 ViewingVolume paper_static_volume(const ShaftAxis& axis, double radius);

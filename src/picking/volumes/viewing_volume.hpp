@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
-#include <vector>
 
 #include "organ_collision/geometry/triangle.hpp"
 

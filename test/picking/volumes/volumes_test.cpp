@@ -128,9 +128,9 @@ TEST(PaperVolumes, DegenerateMotionsAreStaticToTheFartherTip) {
       EXPECT_LT((volume.clip() - expected.clip()).norm(), 1e-9 * expected.clip().norm()) << motion;
     }
   }
-  EXPECT_THROW(paper_static_volume(to(0), 0.005), VolumeError);
-  EXPECT_THROW(paper_swept_volume({to(0), to(0)}, 0.005), VolumeError);
-  EXPECT_THROW(paper_naive_volume({to(0), to(0)}, 0.005), VolumeError);
+  EXPECT_THROW(paper_static_volume(to(0), 0.005), std::invalid_argument);
+  EXPECT_THROW(paper_swept_volume({to(0), to(0)}, 0.005), std::invalid_argument);
+  EXPECT_THROW(paper_naive_volume({to(0), to(0)}, 0.005), std::invalid_argument);
 }
 
 bool is_perspective(const ViewingVolume& volume) {
