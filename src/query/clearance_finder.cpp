@@ -10,9 +10,23 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// If more faces come near the chord of a span, then each leg is searched by itself. The first term
-/// is about what a search costs, and the second one what it finds.
-constexpr std::size_t most_listed(std::size_t found) { return 64 + 2 * found; }
+/// ToolClearance::closing_speed. `end`: the nearest approach at the end of the step. `normal`: from
+/// the tool to the organ. The smallest distance changes as the distance of the two points that are
+/// nearest now, if they move with the tool and with the organ (Danskin's theorem).
+double closing_speed(const Step& at_end, const CollisionRequest& request, const Approach& end,
+                     const Vector3d& normal) {
+  const ClosestPoints& closest = end.closest.closest;
+  Vector3d velocity = -tissue_velocity(request, end.face, closest.barycentric);
+  const PartOnLeg part(at_end, at_end.span_of(0), end.part);
+  velocity += part->moved_since(*request.pose_before, closest) / request.pose_before_sec;
+  return normal.dot(velocity);
+}
+
+/// The contact whose fields describe an approach, as if it were a first touch.
+FaceContact contact_of(const Step& step, const Approach& near) {
+  const PartOnLeg part(step, step.span_of(near.leg), near.part);
+  return contact_on(step, near.leg, *part, near.face, {near.closest.time, near.closest.closest});
+}
 
 }  // namespace
 
@@ -105,24 +119,6 @@ NearestAtEnd ClearanceFinder::find_near(const Step& step, const CollisionRequest
   if (!step.is_at_rest() || !result.contacts.empty() || unmeasured_ > 0) return {};
   const std::vector<Approach>& found = nearest_.found();
   return {true, found.empty() ? std::nullopt : std::optional<Approach>(found.front())};
-}
-
-/// ToolClearance::closing_speed. `end`: the nearest approach at the end of the step. `normal`: from
-/// the tool to the organ. The smallest distance changes as the distance of the two points that are
-/// nearest now, if they move with the tool and with the organ (Danskin's theorem).
-double ClearanceFinder::closing_speed(const Step& at_end, const CollisionRequest& request,
-                                      const Approach& end, const Vector3d& normal) {
-  const ClosestPoints& closest = end.closest.closest;
-  Vector3d velocity = -tissue_velocity(request, end.face, closest.barycentric);
-  const PartOnLeg part(at_end, at_end.span_of(0), end.part);
-  velocity += part->moved_since(*request.pose_before, closest) / request.pose_before_sec;
-  return normal.dot(velocity);
-}
-
-/// The contact whose fields describe an approach, as if it were a first touch.
-FaceContact ClearanceFinder::contact_of(const Step& step, const Approach& near) {
-  const PartOnLeg part(step, step.span_of(near.leg), near.part);
-  return contact_on(step, near.leg, *part, near.face, {near.closest.time, near.closest.closest});
 }
 
 /// Measures faces against a part of the tool on one leg, or along the chord of a span. The step
@@ -240,7 +236,9 @@ void ClearanceFinder::search_leg(const Step& step, std::size_t leg, const ToolPa
 /// otherwise the list is not complete.
 bool ClearanceFinder::list_faces_near_chord(const Step& step, const LegSpan& span,
                                             const ToolPart& part) {
-  const std::size_t most = most_listed(nearest_.found().size());
+  // If more faces come near the chord, then each leg is searched by itself. The first term is about
+  // what a search costs, and the second one what it finds.
+  const std::size_t most = 64 + 2 * nearest_.found().size();
   listed_.clear();
   LegSearch search(*this, step, span, part);
   return search.visit([&](std::uint32_t face, const ClosestApproach& /*closest*/) {

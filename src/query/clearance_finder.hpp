@@ -41,10 +41,6 @@ class ClearanceFinder {
   std::optional<Approach> nearest(const Step& step, double distance_bound);
   void set_least(const Step& step, const CollisionRequest& request,
                  const std::vector<FaceContact>& contacts, ToolClearance& clearance);
-  static double closing_speed(const Step& at_end, const CollisionRequest& request,
-                              const Approach& end, const Eigen::Vector3d& normal);
-  static FaceContact contact_of(const Step& step, const Approach& near);
-
   void find_approaches(const Step& step);
   void search_leg(const Step& step, std::size_t leg, const ToolPart& part);
   bool list_faces_near_chord(const Step& step, const LegSpan& span, const ToolPart& part);

@@ -2,10 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <optional>
 #include <tuple>
 
-#include "geometry/sides/face_crossing.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 
 namespace organ_collision {
@@ -16,29 +14,10 @@ using Eigen::Vector3d;
 
 /// [m] The radius of the volume in which faces near an axis are picked. The faces as drawn are up
 /// to tolerance::kSeam away from the welded faces that count. In a volume that is thinner than
-/// kShare of the organ, DrawList would leave the faces undrawn because of 32-bit clipping.
+/// kShare of the organ, the picker would leave the faces undrawn because of 32-bit clipping.
 double picking_radius(const AlignedBox3d& box) {
   constexpr double kShare = 2e-4;
   return 2.0 * tolerance::kSeam + kShare * box.sizes().maxCoeff();
-}
-
-/// The part of an axis within a box, or nothing. The box has a margin around the organ that is far
-/// larger than the rounding errors.
-std::optional<ShaftAxis> clip(const ShaftAxis& axis, const AlignedBox3d& box) {
-  const Vector3d along = axis.along();
-  double begin = 0.0, end = 1.0;
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    const double low = box.min()[i] - axis.trocar[i], high = box.max()[i] - axis.trocar[i];
-    if (along[i] == 0.0) {
-      if (low > 0.0 || high < 0.0) return std::nullopt;
-      continue;
-    }
-    const auto [enter, leave] = std::minmax({low / along[i], high / along[i]});
-    begin = std::max(begin, enter);
-    end = std::min(end, leave);
-  }
-  if (begin > end) return std::nullopt;
-  return ShaftAxis{begin > 0.0 ? axis.at(begin) : axis.trocar, end < 1.0 ? axis.at(end) : axis.tip};
 }
 
 /// The shortest ray, along a coordinate axis, from a point in a box to a point outside of the box.
@@ -76,21 +55,15 @@ double share_inside(const std::vector<AxisCrossing>& crossings, int trocar_windi
 }  // namespace
 
 void PlacementFinder::find(const CollisionRequest& request, AxisPlacement& placement) {
-  const Surface surface = surface_of(request);
+  const SurfaceTopology* topology = request.surface_topology;
+  if (topology && !seam_check_.seams_hold(*topology, *request.organ)) topology = nullptr;
+  const Surface surface{*request.organ, topology, topology && topology->is_closed()};
   if (request.radius > 0.0) {
     find_axis(surface, request.path.back().axis, placement);
   } else if (request.tip && surface.has_sides) {
     const int winding = winding_number(surface, *request.tip);
     placement.tip = side(is_on_candidate(surface, *request.tip), winding);
   }
-}
-
-PlacementFinder::Surface PlacementFinder::surface_of(const CollisionRequest& request) {
-  const SurfaceTopology* const topology = request.surface_topology;
-  if (!topology || !seam_check_.seams_hold(*topology, *request.organ)) {
-    return {*request.organ, nullptr, false};
-  }
-  return {*request.organ, topology, topology->is_closed()};
 }
 
 /// The crossings tell how the winding number changes along the axis. So the winding number is
@@ -117,14 +90,8 @@ void PlacementFinder::find_axis(const Surface& surface, const ShaftAxis& axis,
 
 /// Replaces candidates_ by the faces that may meet `axis`.
 void PlacementFinder::pick_near(const ShaftAxis& axis, const TriangleMesh& organ) {
-  candidates_.clear();
-  const AlignedBox3d box = organ.box().cast<double>();
-  const double radius = picking_radius(box);
-  const Vector3d margin = Vector3d::Constant(radius);
-  const auto clipped = clip(axis, {box.min() - margin, box.max() + margin});
-  if (!clipped) return;
-  const ShaftMotion at_rest{*clipped, *clipped};
-  picker_.pick(PartSweep(at_rest, radius), OrganMotion(organ), candidates_);
+  const double radius = picking_radius(organ.box().cast<double>());
+  picker_.pick(PartSweep({axis, axis}, radius), OrganMotion(organ), candidates_);
 }
 
 /// Finds the crossings, in the order in which the axis meets them after its infinitesimal

@@ -1,10 +1,8 @@
 #include "step.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "geometry/tool/leg_motion.hpp"
 #include "request_check.hpp"
 
 namespace organ_collision {
@@ -12,17 +10,14 @@ namespace {
 
 using Eigen::Isometry3d;
 
-/// The cosine of the angle of the rotation R between two poses: (trace(R) - 1) / 2.
-double rotation_cosine(const Isometry3d& from, const Isometry3d& to) {
-  return 0.5 * (from.linear().cwiseProduct(to.linear()).sum() - 1.0);
-}
-
 /// The number of equal parts into which a leg is divided, so that no link, and nothing that carries
 /// an end of the shaft's axis, turns by more than kMaxRotation.
 int count_parts(const ToolWaypoint& from, const ToolWaypoint& to) {
   double least_cosine = 1.0;
   for (std::size_t i = 0; i < to.links.size(); ++i) {
-    least_cosine = std::min(least_cosine, rotation_cosine(from.links[i], to.links[i]));
+    // The rotation R between both poses has the trace 1 + 2 cos(angle).
+    const double trace = from.links[i].linear().cwiseProduct(to.links[i].linear()).sum();
+    least_cosine = std::min(least_cosine, 0.5 * (trace - 1.0));
   }
   double angle = std::max(to.arcs[0].turn.norm(), to.arcs[1].turn.norm());
   if (least_cosine < std::cos(kMaxRotation)) {

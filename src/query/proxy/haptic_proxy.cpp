@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
-#include <string>
 #include <utility>
 
 #include "mobility.hpp"
@@ -60,7 +58,6 @@ struct HapticProxy::State {
   };
   bool move_needle(Tick& tick);
   void hold(Tick& tick, Needle&& held) const;
-  void pierce(Tick& tick);
   void move_proxy(Tick& tick);
   std::vector<OrganTick> match(const std::vector<ProxyOrgan>& organs, bool goes_on) const;
   void choose_sides(Tick& tick);
@@ -134,7 +131,11 @@ void HapticProxy::State::follow(const ToolPose& hand, const std::vector<ProxyOrg
   if (!move_needle(tick)) {
     move_proxy(tick);
     if (tick.place) describe(tick);
-    pierce(tick);
+    if (settings.puncture && tick.answer.state == ProxyStatus::kTouching) {
+      auto pierced = Needle::pierce(tick.answer.proxy.axis, hand.axis, tick.answer.contacts, organs,
+                                    settings, tissue);
+      if (pierced) hold(tick, std::move(*pierced));
+    }
   }
   answer = std::move(tick.answer);
   place = std::move(tick.place);
@@ -176,13 +177,6 @@ void HapticProxy::State::hold(Tick& tick, Needle&& held) const {
   tick.answer.contacts.clear();
   tick.answer.crossings = held.crossings();
   tick.needle = std::move(held);
-}
-
-void HapticProxy::State::pierce(Tick& tick) {
-  if (!settings.puncture || tick.answer.state != ProxyStatus::kTouching) return;
-  auto pierced = Needle::pierce(tick.answer.proxy.axis, tick.hand.axis, tick.answer.contacts,
-                                tick.organs, settings, tissue);
-  if (pierced) hold(tick, std::move(*pierced));
 }
 
 void HapticProxy::State::move_proxy(Tick& tick) {

@@ -51,9 +51,6 @@ class TrocarMobility : public Mobility {
  public:
   explicit TrocarMobility(const ProxyTool& tool) : tool_(tool) {}
 
-  ToolPose combine(const ToolPose& free, const ToolPose& hand) const override {
-    return at(free.axis.tip, hand);
-  }
   Displacement between(const ToolPose& from, const ToolPose& to) const override {
     Displacement result = Displacement::Zero();
     result.head<3>() = to.axis.tip - from.axis.tip;
@@ -137,9 +134,6 @@ class FreeMobility : public Mobility {
     size_ = extent_ / std::sqrt(3.0);
   }
 
-  ToolPose combine(const ToolPose& free, const ToolPose& hand) const override {
-    return at(center(free), rotation(hand, free), hand);
-  }
   Displacement between(const ToolPose& from, const ToolPose& to) const override {
     const Eigen::AngleAxisd turned(rotation(from, to));
     Displacement result;
@@ -193,16 +187,6 @@ class FreeMobility : public Mobility {
 std::unique_ptr<Mobility> make_mobility(const ProxyTool& tool) {
   if (tool.freedom == ProxyFreedom::kTrocar) return std::make_unique<TrocarMobility>(tool);
   return std::make_unique<FreeMobility>(tool);
-}
-
-ToolPose interpolate(const ToolPose& from, const ToolPose& to, double time) {
-  const ShaftMotion motion{from.axis, to.axis};
-  ToolPose result{motion.at(time), {}, {}};
-  for (std::size_t link = 0; link < from.links.size(); ++link) {
-    result.links.push_back(RigidMotion(from.links[link], to.links[link]).at(time));
-  }
-  if (from.tip && to.tip) result.tip = *from.tip + time * (*to.tip - *from.tip);
-  return result;
 }
 
 }  // namespace organ_collision

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Geometry>
 #include <memory>
 
 #include "least_constraint.hpp"
@@ -18,7 +17,9 @@ class Mobility {
   virtual ~Mobility() = default;
 
   /// The pose with the free coordinates of `free`, and with the joints and the trocar of `hand`.
-  virtual ToolPose combine(const ToolPose& free, const ToolPose& hand) const = 0;
+  ToolPose combine(const ToolPose& free, const ToolPose& hand) const {
+    return moved(free, Displacement::Zero(), hand);
+  }
   /// The change of the free coordinates from one pose to another.
   virtual Displacement between(const ToolPose& from, const ToolPose& to) const = 0;
   /// The pose after a motion, with the joints and the trocar of `hand`.
@@ -40,8 +41,5 @@ class Mobility {
 
 /// The mobility of a tool. The tool must outlive it.
 std::unique_ptr<Mobility> make_mobility(const ProxyTool& tool);
-
-/// The pose at a time in [0, 1] of the motion between two poses, as ToolPath defines it.
-ToolPose interpolate(const ToolPose& from, const ToolPose& to, double time);
 
 }  // namespace organ_collision

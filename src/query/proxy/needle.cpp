@@ -20,11 +20,6 @@ double threshold(const ProxySettings& settings) {
   return settings.puncture.value_or(std::numeric_limits<double>::infinity());
 }
 
-bool presses(const ProxyFace& held, const Vector3d& direction) {
-  return held.load > 0.0 && held.contact.link == kShaft && held.contact.shaft == 1.0 &&
-         held.contact.normal.dot(direction) > kPressing;
-}
-
 }  // namespace
 
 std::optional<Needle> Needle::pierce(const ShaftAxis& proxy, const ShaftAxis& hand,
@@ -33,8 +28,9 @@ std::optional<Needle> Needle::pierce(const ShaftAxis& proxy, const ShaftAxis& ha
                                      const ProxySettings& settings, Tissue& tissue) {
   const Vector3d direction = proxy.along().normalized();
   const double excess = direction.dot(hand.tip - proxy.tip);
-  const bool is_pressing = std::any_of(contacts.begin(), contacts.end(), [&](const auto& contact) {
-    return presses(contact, direction);
+  const bool is_pressing = std::any_of(contacts.begin(), contacts.end(), [&](const auto& held) {
+    return held.load > 0.0 && held.contact.link == kShaft && held.contact.shaft == 1.0 &&
+           held.contact.normal.dot(direction) > kPressing;
   });
   if (!is_pressing || !(excess >= threshold(settings))) return std::nullopt;
   const ShaftAxis ahead{proxy.trocar, proxy.tip + excess * direction};

@@ -1,7 +1,6 @@
 #include "proxy_motion.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -43,6 +42,17 @@ bool is_same(const ToolPose& a, const ToolPose& b) {
   if (!is_near(a.axis.trocar, b.axis.trocar) || !is_near(a.axis.tip, b.axis.tip)) return false;
   return std::equal(a.links.begin(), a.links.end(), b.links.begin(),
                     [&](const auto& x, const auto& y) { return is_near(x.matrix(), y.matrix()); });
+}
+
+/// The pose at a time in [0, 1] of the motion between two poses, as ToolPath defines it.
+ToolPose interpolate(const ToolPose& from, const ToolPose& to, double time) {
+  const ShaftMotion motion{from.axis, to.axis};
+  ToolPose result{motion.at(time), {}, {}};
+  for (std::size_t link = 0; link < from.links.size(); ++link) {
+    result.links.push_back(RigidMotion(from.links[link], to.links[link]).at(time));
+  }
+  if (from.tip && to.tip) result.tip = *from.tip + time * (*to.tip - *from.tip);
+  return result;
 }
 
 /// The pose at a fraction in [0, 1] of a way. All legs of the way take equally long.

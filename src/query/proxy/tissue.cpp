@@ -45,7 +45,15 @@ double Tissue::least_growth() const { return -std::max(kAxisRadius, tool_.radius
 void Tissue::touch(const std::vector<ToolPose>& way, double growth,
                    std::vector<TissueContact>& contacts, Organs organs) {
   contacts.clear();
-  grow(growth);
+  const bool is_thin = growth < 0.0;
+  const double radius = tool_.radius > 0.0 ? std::max(kAxisRadius, tool_.radius + growth) : 0.0;
+  for (std::size_t link = 0; link < grown_links_.size(); ++link) {
+    const std::vector<LinkPart>& parts = tool_.links[link].parts;
+    for (std::size_t part = 0; part < parts.size(); ++part) {
+      grown_links_[link].parts[part].radius = parts[part].radius + std::max(0.0, growth);
+    }
+  }
+  const AskedTool grown{radius, is_thin ? &middle_lines_ : &grown_links_};
   for (std::size_t organ = 0; organ < organs_->size(); ++organ) {
     const OrganTick& tick = (*organs_)[organ];
     const bool moves = organs == Organs::kMove;
@@ -55,12 +63,15 @@ void Tissue::touch(const std::vector<ToolPose>& way, double growth,
       path.push_back(waypoint(fraction, tick.T_now, way[i]));
     }
     const QueryMode mode = path.size() == 1 ? QueryMode::kStatic : QueryMode::kSwept;
-    query_.evaluate(make_request({tick.now, moves ? tick.before : nullptr}, grown_tool(), {mode},
-                                 std::move(path)),
-                    result_);
+    query_.evaluate(
+        make_request({tick.now, moves ? tick.before : nullptr}, grown, {mode}, std::move(path)),
+        result_);
     const Eigen::Isometry3d T_proxy_organ = tick.T_now.inverse();
     for (const FaceContact& found : result_.contacts) {
-      TissueContact contact{organ, found, growth_of(found.link) - found.depth};
+      // A middle line has grown by its whole radius.
+      const double growth_of_link = is_thin ? kAxisRadius : growth;
+      const double grown_by = found.link == kShaft ? radius - tool_.radius : growth_of_link;
+      TissueContact contact{organ, found, grown_by - found.depth};
       contact.contact.point = T_proxy_organ * found.point;
       contact.contact.on_organ = T_proxy_organ * found.on_organ;
       contact.contact.normal = T_proxy_organ.linear() * found.normal;
@@ -118,27 +129,6 @@ const AxisPlacement& Tissue::placement(const OrganTick& organ, const ShaftAxis& 
                                kPlacement, {waypoint(0.0, organ.T_now, {axis, {}, {}})}),
                   result_);
   return result_.placement;
-}
-
-void Tissue::grow(double growth) {
-  growth_ = growth;
-  radius_ = tool_.radius > 0.0 ? std::max(kAxisRadius, tool_.radius + growth) : 0.0;
-  for (std::size_t link = 0; link < grown_links_.size(); ++link) {
-    const std::vector<LinkPart>& parts = tool_.links[link].parts;
-    for (std::size_t part = 0; part < parts.size(); ++part) {
-      grown_links_[link].parts[part].radius = parts[part].radius + std::max(0.0, growth);
-    }
-  }
-}
-
-/// [m] By how much the radius of a link has grown. A middle line has grown by its whole radius.
-double Tissue::growth_of(std::int32_t link) const {
-  if (link == kShaft) return radius_ - tool_.radius;
-  return growth_ < 0.0 ? kAxisRadius : growth_;
-}
-
-AskedTool Tissue::grown_tool() const {
-  return {radius_, growth_ < 0.0 ? &middle_lines_ : &grown_links_};
 }
 
 }  // namespace organ_collision

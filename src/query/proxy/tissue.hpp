@@ -71,15 +71,10 @@ class Tissue {
   double least_growth() const;
 
  private:
-  void grow(double growth);
-  double growth_of(std::int32_t link) const;
-  AskedTool grown_tool() const;
   const AxisPlacement& placement(const OrganTick& organ, const ShaftAxis& axis,
                                  const SurfaceTopology* topology);
 
   const ProxyTool& tool_;
-  double growth_ = 0.0;  ///< [m]
-  double radius_ = 0.0;  ///< [m] the radius of the grown shaft; 0: no shaft
   std::vector<Link> grown_links_;
   std::vector<Link> middle_lines_;  ///< the links, each part replaced by its middle line
   const std::vector<OrganTick>* organs_ = nullptr;
