@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
 
 namespace organ_collision {
 namespace {
 
+using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 /// [1] How far 32-bit clipping may displace the planes of a volume, as shares of the largest
@@ -115,24 +117,36 @@ ViewingVolume cut_box(const Ends& ends, double radius, double extent, const Roun
       ViewingVolume::orthographic({ends.origin, Vector3d::Zero(), axes, low.x(), high.x(), low.y(),
                                    high.y(), low.z(), high.z()});
 
-  const auto is_at = [&](int i, int j) {
-    return points(0, i) == points(0, j) && points(2, i) == points(2, j);
+  // The edges of the hull, counterclockwise from its leftmost corner. Follows Jarvis, "On the
+  // identification of the convex hull of a finite set of points in the plane" (1973).
+  const auto is_beyond = [&](const Vector3d& edge, const Vector3d& other) {
+    const double turn = edge.x() * other.z() - edge.z() * other.x();
+    return turn < 0 || (turn == 0 && Vector2d(other.x(), other.z()).norm() >
+                                         Vector2d(edge.x(), edge.z()).norm());
   };
-  const auto is_repeated = [&](int i) {
-    return (i > 0 && is_at(i, 0)) || (i > 1 && is_at(i, 1)) || (i > 2 && is_at(i, 2));
-  };
-  for (int pair = 0; pair < 16; ++pair) {
-    const int from = pair / 4, to = pair % 4;
-    if (from == to || is_repeated(from) || is_repeated(to)) continue;
-    const Vector3d edge = points.col(to) - points.col(from);
+  int first = 0;
+  for (int i = 1; i < 4; ++i) {
+    const Vector3d other = points.col(i), leftmost = points.col(first);
+    if (std::tie(other.x(), other.z()) < std::tie(leftmost.x(), leftmost.z())) first = i;
+  }
+  int from = first;
+  for (int corner = 0; corner < 4; ++corner) {
+    Vector3d edge = Vector3d::Zero();
+    int to = from;
+    for (int i = 0; i < 4; ++i) {
+      const Vector3d other = points.col(i) - points.col(from);
+      if (!is_beyond(edge, other)) continue;
+      edge = other;
+      to = i;
+    }
     const Vector3d normal = Vector3d(edge.z(), 0, -edge.x()).stableNormalized();
-    const Eigen::RowVector4d places = normal.transpose() * points;
-    const bool is_of_hull = places.maxCoeff() <= std::max(places[from], places[to]);
-    const double offset = places.maxCoeff() + grown;
+    const double offset = (normal.transpose() * points).maxCoeff() + grown;
     const double box_offset = normal.cwiseProduct(low).cwiseMax(normal.cwiseProduct(high)).sum();
-    if (is_of_hull && box_offset - offset > kWorthCutting * radius) {
+    if (box_offset - offset > kWorthCutting * radius) {
       volume.add_user_plane({axes * normal, offset});
     }
+    from = to;
+    if (from == first) break;
   }
   return volume;
 }

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "organ_collision/geometry/tolerances.hpp"
-
 namespace organ_collision {
 namespace {
 
