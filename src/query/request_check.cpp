@@ -13,35 +13,33 @@
 namespace organ_collision {
 namespace {
 
+/// Throws unless the condition holds. The text is made only then.
 template <typename... Parts>
-[[noreturn]] void refuse(const Parts&... parts) {
-  throw std::invalid_argument(concatenate(parts...));
+void require(bool condition, const Parts&... text) {
+  if (!condition) throw std::invalid_argument(concatenate(text...));
 }
 
 /// `name`: the parts of the point's name, which are put together only for a refusal.
 template <typename... Parts>
 void check_point(const Eigen::Vector3d& point, const Parts&... name) {
-  if (is_in_range(point)) return;
-  refuse(name..., " is (", point.x(), ", ", point.y(), ", ", point.z(),
-         "); must be finite and within ", tolerance::kFarthest, " m");
+  require(is_in_range(point), name..., " is (", point.x(), ", ", point.y(), ", ", point.z(),
+          "); must be finite and within ", tolerance::kFarthest, " m");
 }
 
 /// Checks the poses of all links. `of`: the parts of the name of what has them.
 template <typename... Parts>
 void check_links(const std::vector<Link>& links, const std::vector<Eigen::Isometry3d>& poses,
                  const Parts&... of) {
-  if (poses.size() != links.size()) {
-    refuse(of..., " has poses of ", poses.size(), " links; the tool has ", links.size());
-  }
+  require(poses.size() == links.size(), of..., " has poses of ", poses.size(),
+          " links; the tool has ", links.size());
   for (std::size_t i = 0; i < links.size(); ++i) {
     check_point(poses[i].translation(), links[i].name, " of ", of...);
     const Eigen::Matrix3d& rotation = poses[i].linear();
-    if (!(rotation * rotation.transpose()).isIdentity(kRotationTolerance) ||
-        !(rotation.determinant() > 0.0)) {
-      refuse("the orientation of ", links[i].name, " of ", of..., " has the determinant ",
-             rotation.determinant(), "; must be a rotation: orthonormal within ",
-             kRotationTolerance, ", right-handed");
-    }
+    const double determinant = rotation.determinant();
+    require((rotation * rotation.transpose()).isIdentity(kRotationTolerance) && determinant > 0.0,
+            "the orientation of ", links[i].name, " of ", of..., " has the determinant ",
+            determinant, "; must be a rotation: orthonormal within ", kRotationTolerance,
+            ", right-handed");
   }
 }
 
@@ -54,73 +52,63 @@ void check_axis(const ShaftAxis& axis, const Parts&... of) {
 void check_arcs(const ShaftArcs& arcs, std::size_t index) {
   for (const ShaftArc& arc : arcs) {
     check_point(arc.arm, "the arm of an arc to waypoint ", index);
-    if (!(arc.turn.norm() <= M_PI + kRotationTolerance)) {
-      refuse("an arc to waypoint ", index, " turns by ", arc.turn.norm(),
-             " rad; must be finite and at most half a turn");
-    }
+    const double angle = arc.turn.norm();
+    require(angle <= M_PI + kRotationTolerance, "an arc to waypoint ", index, " turns by ", angle,
+            " rad; must be finite and at most half a turn");
   }
 }
 
 void check_path(const CollisionRequest& request) {
   const ToolPath& path = request.path;
-  if (path.empty()) refuse("the tool's path is empty; it has at least one waypoint");
+  require(!path.empty(), "the tool's path is empty; it has at least one waypoint");
   for (std::size_t i = 0; i < path.size(); ++i) {
     if (request.radius > 0.0) {
       check_axis(path[i].axis, "waypoint ", i);
       check_arcs(path[i].arcs, i);
     }
     if (request.links) check_links(*request.links, path[i].links, "waypoint ", i);
-    if (path[i].links.size() != path[0].links.size()) {
-      refuse("waypoint ", i, " has poses of ", path[i].links.size(),
-             " links, and the first one of ", path[0].links.size());
-    }
-    if (i > 0 && !(path[i].fraction > path[i - 1].fraction)) {
-      refuse("waypoint ", i, " is at fraction ", path[i].fraction, " after ", path[i - 1].fraction,
-             "; fractions must rise");
-    }
+    require(path[i].links.size() == path[0].links.size(), "waypoint ", i, " has poses of ",
+            path[i].links.size(), " links, and the first one of ", path[0].links.size());
+    if (i == 0) continue;
+    require(path[i].fraction > path[i - 1].fraction, "waypoint ", i, " is at fraction ",
+            path[i].fraction, " after ", path[i - 1].fraction, "; fractions must rise");
   }
-  if (path.size() > 1 && (path.front().fraction != 0.0 || path.back().fraction != 1.0)) {
-    refuse("the path runs from fraction ", path.front().fraction, " to ", path.back().fraction,
-           "; must be from 0 to 1");
-  }
+  const double begin = path.front().fraction, end = path.back().fraction;
+  require(path.size() == 1 || (begin == 0.0 && end == 1.0), "the path runs from fraction ", begin,
+          " to ", end, "; must be from 0 to 1");
 }
 
 void check_radius(const CollisionRequest& request) {
   const bool has_links = request.links && !request.links->empty();
   if (has_links && request.radius == 0.0) {
-    if (is_paper_mode(request.mode))
-      refuse("the paper's modes need a shaft; the tool has links alone");
-  } else if (!(request.radius > 0.0 && is_in_range(request.radius))) {
-    refuse("radius is ", request.radius, " m; must be positive, finite and within ",
-           tolerance::kFarthest, " m");
+    require(!is_paper_mode(request.mode),
+            "the paper's modes need a shaft; the tool has links alone");
+  } else {
+    require(request.radius > 0.0 && is_in_range(request.radius), "radius is ", request.radius,
+            " m; must be positive, finite and within ", tolerance::kFarthest, " m");
   }
 }
 
 void check_clearance(const CollisionRequest& request) {
-  if (!(request.margin >= 0.0) || std::isinf(request.margin)) {
-    refuse("margin is ", request.margin, " m; must be 0 (off) or positive, and finite");
-  }
-  if (request.max_near > 0 && request.margin == 0.0) {
-    refuse("max_near is ", request.max_near,
-           " and margin is 0; faces are near within a margin, which must be positive then");
-  }
-  if (is_paper_mode(request.mode) && asks_for_clearance(request)) {
-    refuse("the paper's modes have no clearance and no near faces; the modes static and swept do");
-  }
+  require(request.margin >= 0.0 && std::isfinite(request.margin), "margin is ", request.margin,
+          " m; must be 0 (off) or positive, and finite");
+  require(request.max_near == 0 || request.margin > 0.0, "max_near is ", request.max_near,
+          " and margin is 0; faces are near within a margin, which must be positive then");
+  require(!is_paper_mode(request.mode) || !asks_for_clearance(request),
+          "the paper's modes have no clearance and no near faces; the modes static and swept do");
 }
 
 void check_seconds(double seconds, const char* name) {
-  if (std::isfinite(seconds) && seconds > 0.0) return;
-  refuse(name, " is ", seconds, " s; must be positive and finite");
+  require(std::isfinite(seconds) && seconds > 0.0, name, " is ", seconds,
+          " s; must be positive and finite");
 }
 
 void check_velocities(const CollisionRequest& request) {
   if (const TriangleMesh* const from = request.velocity_from) {
     check_seconds(request.velocity_sec, "velocity_sec");
-    if (!from->same_faces(*request.organ)) {
-      refuse("the shape from which velocities count has ", from->face_count(),
-             " other faces than the present one, which has ", request.organ->face_count());
-    }
+    require(from->same_faces(*request.organ), "the shape from which velocities count has ",
+            from->face_count(), " other faces than the present one, which has ",
+            request.organ->face_count());
   }
   if (!request.pose_before) return;
   check_seconds(request.pose_before_sec, "pose_before_sec");
@@ -129,11 +117,11 @@ void check_velocities(const CollisionRequest& request) {
 }
 
 void check_placement(const CollisionRequest& request) {
-  if (is_paper_mode(request.mode)) refuse("placement is asked for; the paper's modes have none");
-  const SurfaceTopology* const topology = request.surface_topology;
-  if (topology && topology->welded().size() != request.organ->vertex_count()) {
-    refuse("the placement's topology has ", topology->welded().size(),
-           " vertices; must be as many as the organ has, ", request.organ->vertex_count());
+  require(!is_paper_mode(request.mode), "placement is asked for; the paper's modes have none");
+  if (const SurfaceTopology* const topology = request.surface_topology) {
+    const std::size_t of_organ = request.organ->vertex_count(), own = topology->welded().size();
+    require(own == of_organ, "the placement's topology has ", own,
+            " vertices; must be as many as the organ has, ", of_organ);
   }
   if (request.tip) check_point(*request.tip, "the placement's tip");
 }
@@ -141,22 +129,22 @@ void check_placement(const CollisionRequest& request) {
 }  // namespace
 
 void check(const CollisionRequest& request) {
-  if (!request.organ) refuse("the request names no organ");
-  if (request.mode > QueryMode::kPaperNaive) {
-    refuse("mode is ", static_cast<int>(request.mode), "; legal are 0 to 4");
-  }
+  require(request.organ != nullptr, "the request names no organ");
+  require(request.mode <= QueryMode::kPaperNaive, "mode is ", static_cast<int>(request.mode),
+          "; legal are 0 to 4");
   check_radius(request);
   check_path(request);
   check_clearance(request);
-  if (is_paper_mode(request.mode) && !is_static_mode(request.mode) &&
-      request.path.front().axis.trocar != request.path.back().axis.trocar) {
-    refuse("the trocar moves by ",
-           (request.path.back().axis.trocar - request.path.front().axis.trocar).norm(),
-           " m during the step; it must rest in the paper's modes");
+  if (is_paper_mode(request.mode) && !is_static_mode(request.mode)) {
+    const Eigen::Vector3d &from = request.path.front().axis.trocar,
+                          &to = request.path.back().axis.trocar;
+    require(from == to, "the trocar moves by ", (to - from).norm(),
+            " m during the step; it must rest in the paper's modes");
   }
-  if (request.organ_before && !request.organ_before->same_faces(*request.organ)) {
-    refuse("the organ's earlier shape has ", request.organ_before->face_count(),
-           " other faces than the present one, which has ", request.organ->face_count());
+  if (const TriangleMesh* const before = request.organ_before) {
+    require(before->same_faces(*request.organ), "the organ's earlier shape has ",
+            before->face_count(), " other faces than the present one, which has ",
+            request.organ->face_count());
   }
   check_velocities(request);
   if (request.placement) check_placement(request);
@@ -170,39 +158,30 @@ ViewingVolume paper_volume(const CollisionRequest& request) {
 }
 
 void check_tool(const ProxyTool& tool) {
-  if (!std::isfinite(tool.radius) || tool.radius < 0.0) {
-    refuse("the radius of the proxy's tool is ", tool.radius, " m; it must be >= 0 and finite");
-  }
+  require(std::isfinite(tool.radius) && tool.radius >= 0.0, "the radius of the proxy's tool is ",
+          tool.radius, " m; it must be >= 0 and finite");
   if (tool.radius > 0.0) return;
   const bool has_parts = std::any_of(tool.links.begin(), tool.links.end(),
                                      [](const Link& link) { return !link.parts.empty(); });
-  if (!has_parts) {
-    refuse(
-        "the proxy's tool has neither a shaft nor links with parts; give it a radius > 0 or "
-        "links");
-  }
-  if (tool.freedom != ProxyFreedom::kFree) {
-    refuse(
-        "the proxy's tool has no shaft (its radius is 0), so it cannot go through a trocar; let "
-        "it be free");
-  }
+  require(has_parts,
+          "the proxy's tool has neither a shaft nor links with parts; give it a radius > 0 or "
+          "links");
+  require(tool.freedom == ProxyFreedom::kFree,
+          "the proxy's tool has no shaft (its radius is 0), so it cannot go through a trocar; let "
+          "it be free");
 }
 
 void check_settings(const ProxyTool& tool, const ProxySettings& settings) {
   const auto is_positive = [](double value) { return std::isfinite(value) && value > 0.0; };
-  if (!is_positive(settings.clearance)) {
-    refuse("the clearance is ", settings.clearance, " m; it must be > 0 and finite");
-  }
-  if (!(settings.jump > 0.0)) refuse("the jump is ", settings.jump, " m; it must be > 0");
-  if (settings.puncture && !(*settings.puncture > 0.0)) {
-    refuse("the puncture is ", *settings.puncture, " m; it must be > 0");
-  }
-  if (settings.puncture && tool.freedom != ProxyFreedom::kTrocar) {
-    refuse("a puncture is set for a free tool; only a shaft through a trocar can pierce tissue");
-  }
-  if (settings.friction != 0.0 && !is_positive(settings.friction)) {
-    refuse("the friction is ", settings.friction, " m; it must be >= 0 and finite");
-  }
+  require(is_positive(settings.clearance), "the clearance is ", settings.clearance,
+          " m; it must be > 0 and finite");
+  require(settings.jump > 0.0, "the jump is ", settings.jump, " m; it must be > 0");
+  require(settings.friction == 0.0 || is_positive(settings.friction), "the friction is ",
+          settings.friction, " m; it must be >= 0 and finite");
+  if (!settings.puncture) return;
+  require(*settings.puncture > 0.0, "the puncture is ", *settings.puncture, " m; it must be > 0");
+  require(tool.freedom == ProxyFreedom::kTrocar,
+          "a puncture is set for a free tool; only a shaft through a trocar can pierce tissue");
 }
 
 void check_hand(const ProxyTool& tool, const ToolPose& hand) {
@@ -212,22 +191,18 @@ void check_hand(const ProxyTool& tool, const ToolPose& hand) {
 
 void check_organs(const std::vector<ProxyOrgan>& organs) {
   for (const ProxyOrgan& organ : organs) {
-    if (!organ.shape) refuse("organ '", organ.name, "' has no shape");
+    require(organ.shape != nullptr, "organ '", organ.name, "' has no shape");
     const Eigen::Matrix3d turned = organ.T_organ_proxy.linear();
-    if (!organ.T_organ_proxy.matrix().allFinite() || !turned.isUnitary(kRotationTolerance) ||
-        !(turned.determinant() > 0.0)) {
-      refuse("the frame of organ '", organ.name,
-             "' has a pose that is not finite, or whose linear part is not a rotation");
-    }
-    if (organ.keep == Side::kOnSurface) {
-      refuse("organ '", organ.name,
-             "' is to keep a proxy on its surface; legal are the outside, "
-             "the inside and unknown");
-    }
+    require(organ.T_organ_proxy.matrix().allFinite() && turned.isUnitary(kRotationTolerance) &&
+                turned.determinant() > 0.0,
+            "the frame of organ '", organ.name,
+            "' has a pose that is not finite, or whose linear part is not a rotation");
+    require(organ.keep != Side::kOnSurface, "organ '", organ.name,
+            "' is to keep a proxy on its surface; legal are the outside, the inside and unknown");
     const auto same_name =
         std::count_if(organs.begin(), organs.end(),
                       [&](const ProxyOrgan& other) { return other.name == organ.name; });
-    if (same_name != 1) refuse("two organs have the name '", organ.name, "'");
+    require(same_name == 1, "two organs have the name '", organ.name, "'");
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "geometry/concatenate.hpp"
 #include "geometry/plausible_size.hpp"
@@ -13,8 +14,8 @@ namespace {
 using Reason = MeshError::Reason;
 
 template <typename... Parts>
-[[noreturn]] void refuse_mesh(Reason reason, const Parts&... parts) {
-  throw MeshError(reason, concatenate(parts...));
+void require_mesh(bool condition, Reason reason, const Parts&... text) {
+  if (!condition) throw MeshError(reason, concatenate(text...));
 }
 
 /// Throws if a coordinate is not finite or too large. The message names the first bad coordinate.
@@ -23,40 +24,30 @@ void check_coordinates(const std::vector<float>& vertices) {
                                     [](float coordinate) { return is_in_range(coordinate); });
   if (bad == vertices.end()) return;
   const auto index = static_cast<std::size_t>(bad - vertices.begin());
-  refuse_mesh(std::isfinite(*bad) ? Reason::kTooFar : Reason::kNotFinite, "xyz"[index % 3],
-              " of vertex ", index / 3, " is ", *bad, "; coordinates must be finite and within ",
-              tolerance::kFarthest, " m");
+  require_mesh(false, std::isfinite(*bad) ? Reason::kTooFar : Reason::kNotFinite, "xyz"[index % 3],
+               " of vertex ", index / 3, " is ", *bad, "; coordinates must be finite and within ",
+               tolerance::kFarthest, " m");
 }
 
 void check_sizes(std::size_t coordinates, std::size_t indices, const MeshLimits& limits) {
-  if (coordinates % 3 != 0) {
-    refuse_mesh(Reason::kSize, coordinates, " vertex coordinates; must be a multiple of three");
-  }
-  if (indices % 3 != 0) {
-    refuse_mesh(Reason::kSize, indices, " triangle indices; must be a multiple of three");
-  }
-  if (indices == 0) {
-    refuse_mesh(Reason::kNoTriangles, coordinates / 3,
-                " vertices but no triangles; a mesh has at least one");
-  }
-  if (indices / 3 > limits.max_faces) {
-    refuse_mesh(Reason::kTooManyFaces, indices / 3, " faces; at most ", limits.max_faces,
-                " are allowed");
-  }
-  if (coordinates / 3 > 3 * limits.max_faces) {
-    refuse_mesh(Reason::kTooManyVertices, coordinates / 3, " vertices; at most ",
-                3 * limits.max_faces, " are allowed");
-  }
+  require_mesh(coordinates % 3 == 0, Reason::kSize, coordinates,
+               " vertex coordinates; must be a multiple of three");
+  require_mesh(indices % 3 == 0, Reason::kSize, indices,
+               " triangle indices; must be a multiple of three");
+  require_mesh(indices > 0, Reason::kNoTriangles, coordinates / 3,
+               " vertices but no triangles; a mesh has at least one");
+  require_mesh(indices / 3 <= limits.max_faces, Reason::kTooManyFaces, indices / 3,
+               " faces; at most ", limits.max_faces, " are allowed");
+  require_mesh(coordinates / 3 <= 3 * limits.max_faces, Reason::kTooManyVertices, coordinates / 3,
+               " vertices; at most ", 3 * limits.max_faces, " are allowed");
 }
 
 std::vector<FaceIndices> make_faces(const std::vector<std::uint32_t>& triangles,
                                     std::size_t vertex_count) {
   std::vector<FaceIndices> faces(triangles.size() / 3);
   for (std::size_t i = 0; i < triangles.size(); ++i) {
-    if (triangles[i] >= vertex_count) {
-      refuse_mesh(Reason::kIndex, "face ", i / 3, " refers to vertex ", triangles[i], " of ",
-                  vertex_count, "; the first is 0");
-    }
+    require_mesh(triangles[i] < vertex_count, Reason::kIndex, "face ", i / 3, " refers to vertex ",
+                 triangles[i], " of ", vertex_count, "; the first is 0");
     faces[i / 3][i % 3] = triangles[i];
   }
   return faces;
@@ -76,10 +67,8 @@ TriangleMesh::TriangleMesh(SharedVertices vertices, const std::vector<std::uint3
 }
 
 void TriangleMesh::move_vertices(SharedVertices vertices) {
-  if (vertices->size() != vertices_->size()) {
-    refuse_mesh(Reason::kSize, vertices->size(), " vertex coordinates; this topology has ",
-                vertices_->size());
-  }
+  require_mesh(vertices->size() == vertices_->size(), Reason::kSize, vertices->size(),
+               " vertex coordinates; this topology has ", vertices_->size());
   // Fitting the boxes also shows whether all coordinates are legal. A second pass finds the illegal
   // coordinate, if there is one.
   const bool finite = spare_boxes_.refit(topology_->clusters, *vertices);
@@ -92,13 +81,9 @@ void TriangleMesh::move_vertices(SharedVertices vertices) {
 }
 
 bool TriangleMesh::has_triangles(const std::vector<std::uint32_t>& triangles) const {
-  if (triangles.size() != 3 * face_count()) return false;
-  const std::uint32_t* next = triangles.data();
-  for (const FaceIndices& face : faces()) {
-    if (face[0] != next[0] || face[1] != next[1] || face[2] != next[2]) return false;
-    next += 3;
-  }
-  return true;
+  return triangles.size() == 3 * face_count() &&
+         std::memcmp(triangles.data(), faces().data(), triangles.size() * sizeof(triangles[0])) ==
+             0;
 }
 
 }  // namespace organ_collision

@@ -25,23 +25,22 @@ constexpr std::uint32_t kScannedFaces = 512;
 constexpr Eigen::Index kRows = 8;
 
 template <typename... Parts>
-[[noreturn]] void refuse(Reason reason, const Parts&... parts) {
-  throw MeshError(reason, concatenate(parts...));
+void require(bool condition, Reason reason, const Parts&... text) {
+  if (!condition) throw MeshError(reason, concatenate(text...));
 }
 
 void check(const std::vector<Vector3d>& vertices, const std::vector<FaceIndices>& faces) {
-  if (faces.empty()) refuse(Reason::kNoTriangles, "has no triangle; at least one is needed");
+  require(!faces.empty(), Reason::kNoTriangles, "has no triangle; at least one is needed");
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Vector3d& v = vertices[i];
-    if (is_in_range(v)) continue;
-    refuse(v.allFinite() ? Reason::kTooFar : Reason::kNotFinite, "vertex ", i, " is at (", v.x(),
-           ", ", v.y(), ", ", v.z(), "); must be finite and within ", tolerance::kFarthest, " m");
+    require(is_in_range(v), v.allFinite() ? Reason::kTooFar : Reason::kNotFinite, "vertex ", i,
+            " is at (", v.x(), ", ", v.y(), ", ", v.z(), "); must be finite and within ",
+            tolerance::kFarthest, " m");
   }
   for (std::size_t i = 0; i < faces.size(); ++i) {
     for (const std::uint32_t corner : faces[i]) {
-      if (corner >= vertices.size()) {
-        refuse(Reason::kIndex, "face ", i, " names vertex ", corner, " of ", vertices.size());
-      }
+      require(corner < vertices.size(), Reason::kIndex, "face ", i, " names vertex ", corner,
+              " of ", vertices.size());
     }
   }
 }
