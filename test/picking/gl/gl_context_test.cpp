@@ -156,13 +156,13 @@ TEST(GlContext, ReplacedAndReleasedWorksInAnotherThread) {
 TEST(GlContext, WithoutItsFramebufferFailsAndIsMadeAnew) {
   GlContext context(GlPlatform::kEgl);
   ASSERT_TRUE(sees_face(context, box()));
-  const SharedLibrary egl("libEGL.so.1");
-  decltype(&eglGetCurrentDisplay) current_display = nullptr;
-  decltype(&eglGetCurrentSurface) current_surface = nullptr;
-  decltype(&eglDestroySurface) destroy_surface = nullptr;
-  egl.load("eglGetCurrentDisplay", current_display);
-  egl.load("eglGetCurrentSurface", current_surface);
-  egl.load("eglDestroySurface", destroy_surface);
+  void* const egl = dlopen("libEGL.so.1", RTLD_NOW);
+  const auto current_display =
+      reinterpret_cast<decltype(&eglGetCurrentDisplay)>(dlsym(egl, "eglGetCurrentDisplay"));
+  const auto current_surface =
+      reinterpret_cast<decltype(&eglGetCurrentSurface)>(dlsym(egl, "eglGetCurrentSurface"));
+  const auto destroy_surface =
+      reinterpret_cast<decltype(&eglDestroySurface)>(dlsym(egl, "eglDestroySurface"));
   EGLDisplay const display = current_display();
   EGLSurface const surface = current_surface(EGL_DRAW);
   context.release();
