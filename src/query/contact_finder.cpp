@@ -70,8 +70,10 @@ void ContactFinder::find_in_paper_volume(const CollisionRequest& request, Collis
   for (const Candidate& candidate : candidates_) {
     result.contacts.emplace_back().face = candidate.face;
     result.view_ranges.push_back({candidate.view_min, candidate.view_max});
-    if (!request.regions) continue;
-    result.regions.push_back(region_of(request.organ->triangle(candidate.face), volume));
+  }
+  // Section 3 of the paper: the feedback mode gives the coordinates of the intersection.
+  if (request.regions) {
+    picker_.find_regions(volume, *request.organ, candidates_, result.regions);
   }
 }
 

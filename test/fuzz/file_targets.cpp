@@ -64,6 +64,12 @@ const FuzzTarget feedback_target("feedback", [](const std::uint8_t* data, std::s
   } catch (const GlError&) {
   }
   demand(vertices * kVertexFloats <= written, "each vertex is within the buffer");
+  try {
+    std::size_t corners = 0;
+    for (const FacePart& part : read_parts(buffer, written)) corners += part.size();
+    demand(corners * kVertexFloats <= written, "each corner is within the buffer");
+  } catch (const GlError&) {
+  }
 });
 
 const FuzzTarget motion_file_target("motion_file", [](const std::uint8_t* data, std::size_t size) {

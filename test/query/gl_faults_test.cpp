@@ -38,7 +38,7 @@ TEST_P(GlFaults, NeverLookLikeNoContactAndTheNextQueryIsWhole) {
   for (int i = 0; i < 6 && !HasFailure(); ++i) {
     LinkScene scene(true, random);
     scene.request.regions = i % 2 == 0;
-    if (i % 3 == 2) {
+    if (i % 3 == 2) {  // GL draws the faces of a paper mode again for their regions.
       scene.remove_links(random);
       scene.request.mode = QueryMode::kPaperStatic;
       scene.request.regions = true;

@@ -2,8 +2,10 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
+#include <tuple>
 
 namespace organ_collision {
 namespace {
@@ -11,13 +13,67 @@ namespace {
 // [1] The size of the largest buffer: GL counts its floats with an integer.
 constexpr std::size_t kMostFloats = std::numeric_limits<GLsizei>::max();
 
-/// [1] How many floats GL can return at most for `faces` faces. Each plane adds at most one corner
-/// to a face. GL may return a polygon of n corners as n - 2 triangles, each with two floats of its
-/// own.
+/// [1] The number of floats of a pass-through token with its value.
+constexpr std::size_t kMarkFloats = 2;
+
+/// [1] How many floats GL can return at most for `faces` faces, each after a pass-through token.
+/// Each plane adds at most one corner to a face. GL may return a polygon of n corners as n - 2
+/// triangles, each with two floats of its own.
 std::size_t most_floats(std::size_t faces) {
   constexpr std::size_t kPlanes = 6 + ViewingVolume::kMaxUserPlanes;
   constexpr std::size_t kTriangle = 2 + 3 * kVertexFloats;
-  return faces * (1 + kPlanes) * kTriangle;
+  return faces * (kMarkFloats + (1 + kPlanes) * kTriangle);
+}
+
+/// Runs `draw`, which draws `faces` faces, in GL_FEEDBACK mode. Enlarges `buffer` until everything
+/// fits. Returns the number of floats that GL wrote.
+template <typename Draw>
+std::size_t feed_back(GlContext& context, std::size_t faces, std::vector<float>& buffer,
+                      const Draw& draw) {
+  const GlFunctions& gl = context.functions();
+  while (true) {
+    gl.FeedbackBuffer(static_cast<GLsizei>(buffer.size()), GL_3D_COLOR_TEXTURE, buffer.data());
+    gl.RenderMode(GL_FEEDBACK);
+    draw(gl);
+    const GLint written = gl.RenderMode(GL_RENDER);
+    context.check("a feedback query");
+    if (written > static_cast<GLint>(buffer.size())) {
+      context.fail("OpenGL claims to have written " + std::to_string(written) +
+                   " floats to a buffer of " + std::to_string(buffer.size()));
+    }
+    if (written >= 0) return static_cast<std::size_t>(written);
+    const std::size_t most = std::min(most_floats(faces), kMostFloats);
+    if (buffer.size() >= most) {
+      context.fail("OpenGL's feedback buffer is too small for " + std::to_string(faces) +
+                   " faces with " + std::to_string(buffer.size()) + " floats");
+    }
+    buffer.resize(std::min(4 * buffer.size(), most));
+  }
+}
+
+/// The first two barycentric coordinates of a vertex in a feedback buffer. Throws GlError if they
+/// are far from all that rounding can give.
+Eigen::Vector2d barycentrics_of(const float* vertex) {
+  const auto is_share = [](float share) { return share >= -0.5F && share <= 1.5F; };
+  if (is_share(vertex[7]) && is_share(vertex[8])) return {vertex[7], vertex[8]};
+  throw GlError("OpenGL's feedback buffer holds illegal barycentric coordinates: " +
+                std::to_string(vertex[7]) + ", " + std::to_string(vertex[8]));
+}
+
+/// Sorts the corners of a convex polygon along its border and drops those that occur twice. So the
+/// triangles into which GL may split a polygon become one polygon again.
+void sort_around_middle(FacePart& corners) {
+  if (corners.empty()) return;
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& corner : corners) middle += corner;
+  middle /= static_cast<double>(corners.size());
+  const auto key = [&](const Eigen::Vector2d& corner) {
+    const Eigen::Vector2d arm = corner - middle;
+    return std::make_tuple(std::atan2(arm.y(), arm.x()), corner.x(), corner.y());
+  };
+  std::sort(corners.begin(), corners.end(),
+            [&](const auto& a, const auto& b) { return key(a) < key(b); });
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
 }
 
 std::uint32_t face_number(float lower, float upper) {
@@ -32,14 +88,22 @@ void DrawnFaces::clear() {
 }
 
 void DrawnFaces::add(const Triangle& face, std::uint32_t number) {
+  const Number halves = {static_cast<float>(number & 0xffff), static_cast<float>(number >> 16)};
+  add(face, {halves, halves, halves});
+}
+
+void DrawnFaces::add_with_barycentrics(const Triangle& face) {
+  add(face, {{{1.0F, 0.0F}, {0.0F, 1.0F}, {0.0F, 0.0F}}});
+}
+
+void DrawnFaces::add(const Triangle& face, const std::array<Number, 3>& numbers) {
   std::array<Position, 3>& positions = positions_.emplace_back();
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       positions[i][axis] = static_cast<float>(face[i][static_cast<Eigen::Index>(axis)]);
     }
   }
-  const Number halves = {static_cast<float>(number & 0xffff), static_cast<float>(number >> 16)};
-  numbers_.push_back({halves, halves, halves});
+  numbers_.push_back(numbers);
 }
 
 std::uint32_t DrawnFaces::number(std::size_t face) const {
@@ -86,25 +150,21 @@ std::uint32_t face_of(const float* vertex) {
 
 std::size_t draw_feedback(GlContext& context, const ViewingVolume& volume, const DrawnFaces& faces,
                           std::vector<float>& buffer) {
-  const GlFunctions& gl = prepare_to_draw(context, volume, faces);
-  while (true) {
-    gl.FeedbackBuffer(static_cast<GLsizei>(buffer.size()), GL_3D_COLOR_TEXTURE, buffer.data());
-    gl.RenderMode(GL_FEEDBACK);
+  prepare_to_draw(context, volume, faces);
+  return feed_back(context, faces.size(), buffer, [&](const GlFunctions& gl) {
     gl.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * faces.size()));
-    const GLint written = gl.RenderMode(GL_RENDER);
-    context.check("a feedback query");
-    if (written > static_cast<GLint>(buffer.size())) {
-      context.fail("OpenGL claims to have written " + std::to_string(written) +
-                   " floats to a buffer of " + std::to_string(buffer.size()));
+  });
+}
+
+std::size_t draw_feedback_by_face(GlContext& context, const ViewingVolume& volume,
+                                  const DrawnFaces& faces, std::vector<float>& buffer) {
+  prepare_to_draw(context, volume, faces);
+  return feed_back(context, faces.size(), buffer, [&](const GlFunctions& gl) {
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      gl.PassThrough(0.0F);
+      gl.DrawArrays(GL_TRIANGLES, static_cast<GLint>(3 * i), 3);
     }
-    if (written >= 0) return static_cast<std::size_t>(written);
-    const std::size_t most = std::min(most_floats(faces.size()), kMostFloats);
-    if (buffer.size() >= most) {
-      context.fail("OpenGL's feedback buffer is too small for " + std::to_string(faces.size()) +
-                   " faces with " + std::to_string(buffer.size()) + " floats");
-    }
-    buffer.resize(std::min(4 * buffer.size(), most));
-  }
+  });
 }
 
 std::size_t read_token(const std::vector<float>& buffer, std::size_t size, std::size_t& place) {
@@ -124,6 +184,25 @@ std::size_t read_token(const std::vector<float>& buffer, std::size_t size, std::
     return static_cast<std::size_t>(vertices);
   throw GlError("OpenGL's feedback buffer ends within a primitive of " + std::to_string(vertices) +
                 " vertices");
+}
+
+std::vector<FacePart> read_parts(const std::vector<float>& buffer, std::size_t size) {
+  std::vector<FacePart> parts;
+  std::size_t place = 0;
+  while (place < size) {
+    if (buffer[place] == GL_PASS_THROUGH_TOKEN) {
+      parts.emplace_back();
+      place += kMarkFloats;
+      continue;
+    }
+    for (std::size_t left = read_token(buffer, size, place); left > 0; --left) {
+      if (parts.empty()) throw GlError("OpenGL's feedback buffer begins without a token of a face");
+      parts.back().push_back(barycentrics_of(&buffer[place]));
+      place += kVertexFloats;
+    }
+  }
+  for (FacePart& part : parts) sort_around_middle(part);
+  return parts;
 }
 
 void fail_if_blind(GlContext& context) {

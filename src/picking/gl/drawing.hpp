@@ -20,6 +20,8 @@ class DrawnFaces {
   void clear();
   /// Adds a face in the volume's shifted coordinates.
   void add(const Triangle& face, std::uint32_t number);
+  /// The same. Instead of a number, each corner has its first two barycentric coordinates.
+  void add_with_barycentrics(const Triangle& face);
 
   bool empty() const { return positions_.empty(); }
   std::size_t size() const { return positions_.size(); }
@@ -30,6 +32,8 @@ class DrawnFaces {
   const Number& first_number() const { return numbers_.front().front(); }
 
  private:
+  void add(const Triangle& face, const std::array<Number, 3>& numbers);
+
   std::vector<std::array<Position, 3>> positions_;
   std::vector<std::array<Number, 3>> numbers_;
 };
@@ -46,6 +50,11 @@ const GlFunctions& prepare_to_draw(GlContext& context, const ViewingVolume& volu
 /// wrote. Throws GlError if GL did not work.
 std::size_t draw_feedback(GlContext& context, const ViewingVolume& volume, const DrawnFaces& faces,
                           std::vector<float>& buffer);
+
+/// The same for faces with barycentric coordinates: draws them one by one, each after a
+/// pass-through token. read_parts() reads what GL returns.
+std::size_t draw_feedback_by_face(GlContext& context, const ViewingVolume& volume,
+                                  const DrawnFaces& faces, std::vector<float>& buffer);
 
 /// The number of floats of a vertex in a feedback buffer. GL_3D_COLOR_TEXTURE gives window x y z,
 /// color r g b a, texture coordinate s t r q.
@@ -73,6 +82,14 @@ void for_each_vertex(const std::vector<float>& buffer, std::size_t size, Visit v
     }
   }
 }
+
+/// The part of a face that survives clipping, a convex polygon: the first two barycentric
+/// coordinates of its corners, in their order along its border. Empty if nothing survives.
+using FacePart = std::vector<Eigen::Vector2d>;
+
+/// The parts of the faces that draw_feedback_by_face() has drawn, in the order drawn, from the
+/// first `size` floats of a feedback buffer. Throws GlError as for_each_vertex() does.
+std::vector<FacePart> read_parts(const std::vector<float>& buffer, std::size_t size);
 
 /// The number of the witness. The witness is a face in view that is drawn last. If GL does not
 /// return it, GL may be blind: its answer then means nothing. No face of an organ has this number.

@@ -12,7 +12,7 @@
 #define ORGAN_COLLISION_GL_FUNCTIONS(F)                                                       \
   F(ClipPlane) F(DepthRange) F(DrawArrays) F(Enable) F(EnableClientState) F(FeedbackBuffer)   \
   F(GetError) F(GetString) F(InitNames) F(LoadIdentity) F(LoadMatrixd) F(LoadName)            \
-  F(PushName) F(RenderMode) F(SelectBuffer) F(TexCoordPointer) F(VertexPointer)
+  F(PassThrough) F(PushName) F(RenderMode) F(SelectBuffer) F(TexCoordPointer) F(VertexPointer)
 // clang-format on
 
 namespace organ_collision {

@@ -82,6 +82,27 @@ class GlPicker final : public Picker {
     sort(organ.after().face_count(), candidates);
   }
 
+  void find_regions(const ViewingVolume& volume, const TriangleMesh& mesh,
+                    const std::vector<Candidate>& candidates,
+                    std::vector<Region>& regions) override {
+    regions.clear();
+    if (candidates.empty()) return;
+    std::vector<FacePart> parts = draw_parts(volume, mesh, candidates);
+    // GL has returned each of these faces before. If one is missing now, the draw was disturbed.
+    const auto is_missing = [](const FacePart& part) { return part.empty(); };
+    if (std::any_of(parts.begin(), parts.end(), is_missing)) {
+      fail_if_blind(context_);
+      parts = draw_parts(volume, mesh, candidates);
+    }
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const auto& [a, b, c] = mesh.triangle(candidates[i].face);
+      Region& region = regions.emplace_back();
+      for (const Eigen::Vector2d& at : parts[i]) {
+        region.push_back(c + at.x() * (a - c) + at.y() * (b - c));
+      }
+    }
+  }
+
   void release() override { context_.release(); }
   const std::string& gl_version() const override { return context_.version(); }
 
@@ -156,6 +177,24 @@ class GlPicker final : public Picker {
         candidate.view_min = std::min(candidate.view_min, depth);
         candidate.view_max = std::max(candidate.view_max, depth);
       });
+    } catch (const GlError& error) {
+      context_.fail(error.what());
+    }
+  }
+
+  /// The part of each candidate's face in the volume.
+  std::vector<FacePart> draw_parts(const ViewingVolume& volume, const TriangleMesh& mesh,
+                                   const std::vector<Candidate>& candidates) {
+    DrawnFaces drawn;
+    for (const Candidate& candidate : candidates) {
+      drawn.add_with_barycentrics(shifted(mesh.triangle(candidate.face), volume.origin()));
+    }
+    const std::size_t size = draw_feedback_by_face(context_, volume, drawn, feedback_);
+    try {
+      std::vector<FacePart> parts = read_parts(feedback_, size);
+      if (parts.size() == candidates.size()) return parts;
+      throw GlError("OpenGL returns " + std::to_string(parts.size()) + " tokens for " +
+                    std::to_string(candidates.size()) + " faces");
     } catch (const GlError& error) {
       context_.fail(error.what());
     }

@@ -54,6 +54,15 @@ class CpuPicker final : public Picker {
     sort_by_face(candidates);
   }
 
+  void find_regions(const ViewingVolume& volume, const TriangleMesh& mesh,
+                    const std::vector<Candidate>& candidates,
+                    std::vector<Region>& regions) override {
+    regions.clear();
+    for (const Candidate& candidate : candidates) {
+      regions.push_back(region_of(mesh.triangle(candidate.face), volume));
+    }
+  }
+
   void release() override {}
   const std::string& gl_version() const override { return gl_version_; }
 

@@ -40,6 +40,13 @@ class Picker {
   virtual void pick(const PartSweep& part, const OrganMotion& organ,
                     std::vector<Candidate>& candidates) = 0;
 
+  /// Replaces `regions` by the part of each candidate's face in `volume`, in the same order. The
+  /// candidates are those of pick() for the same volume and mesh. With OpenGL, GL_FEEDBACK gives
+  /// the regions, in 32 bits; otherwise they are exact. Throws GlError.
+  virtual void find_regions(const ViewingVolume& volume, const TriangleMesh& mesh,
+                            const std::vector<Candidate>& candidates,
+                            std::vector<Region>& regions) = 0;
+
   /// Releases the GL context that pick() leaves current in the calling thread. Another thread may
   /// then use or destroy the picker.
   virtual void release() = 0;

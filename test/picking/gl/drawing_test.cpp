@@ -3,6 +3,8 @@
 #include <GL/gl.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <vector>
 
@@ -70,4 +72,50 @@ TEST(Feedback, IllegalNumbersOfVerticesAndFacesAreRefused) {
     EXPECT_THROW(faces(upper, upper.size()), GlError) << half;
   }
   EXPECT_THROW(faces({0.0f}, 1), GlError);
+}
+
+namespace {
+
+/// A triangle whose corners have these barycentric coordinates.
+void add_part(const std::vector<std::array<float, 2>>& corners, std::vector<float>& buffer) {
+  buffer.insert(buffer.end(), {kPolygon, static_cast<float>(corners.size())});
+  for (const auto& [first, second] : corners) add_vertex(first, second, buffer);
+}
+
+void add_mark(std::vector<float>& buffer) {
+  buffer.insert(buffer.end(), {float{GL_PASS_THROUGH_TOKEN}, 0.0f});
+}
+
+}  // namespace
+
+TEST(FaceParts, ThatGlHasSplitAreOnePolygon) {
+  std::vector<float> buffer;
+  add_mark(buffer);
+  add_part({{0, 0}, {1, 0}, {0.75f, 0.25f}}, buffer);
+  add_part({{0, 0}, {0.75f, 0.25f}, {0.25f, 0.75f}}, buffer);
+  add_part({{0.25f, 0.75f}, {0, 1}, {0, 0}}, buffer);
+  add_mark(buffer);
+  add_mark(buffer);
+  add_part({{0.5f, 0.5f}, {0.5f, 0.25f}, {0.25f, 0.5f}}, buffer);
+  const std::vector<FacePart> parts = read_parts(buffer, buffer.size());
+  ASSERT_EQ(parts.size(), 3U);
+  const FacePart whole = {{0, 0}, {1, 0}, {0.75, 0.25}, {0.25, 0.75}, {0, 1}};
+  ASSERT_EQ(parts[0].size(), whole.size());
+  const auto first = std::find(parts[0].begin(), parts[0].end(), whole[0]) - parts[0].begin();
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    EXPECT_EQ(parts[0][(i + static_cast<std::size_t>(first)) % whole.size()], whole[i]) << i;
+  }
+  EXPECT_TRUE(parts[1].empty());
+  EXPECT_EQ(parts[2].size(), 3U);
+}
+
+TEST(FaceParts, IllegalFeedbackIsRefused) {
+  EXPECT_THROW(read_parts(triangle(3), 35), GlError) << "the token of a face is missing";
+  for (const float share : {-1.0f, 2.0f, std::numeric_limits<float>::quiet_NaN()}) {
+    std::vector<float> buffer;
+    add_mark(buffer);
+    add_part({{0, 0}, {1, 0}, {0, share}}, buffer);
+    EXPECT_THROW(read_parts(buffer, buffer.size()), GlError) << share;
+    EXPECT_THROW(read_parts(buffer, buffer.size() - 1), GlError);
+  }
 }
