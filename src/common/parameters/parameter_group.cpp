@@ -12,25 +12,8 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-/// Writes a number with 12 digits. With fewer digits, a number that is slightly too large would be
-/// rounded to one that looks legal.
-std::string written(double number) {
-  std::ostringstream text;
-  text.precision(12);
-  text << number;
-  return text.str();
-}
-
 const std::string& text_in(const XmlRpcValue& value) {
   return static_cast<const std::string&>(value);
-}
-
-std::string written(const NumberRange& range) {
-  const std::string lowest =
-      (range.lowest_is_legal ? "at least " : "more than ") + written(range.lowest);
-  const std::string highest =
-      std::isinf(range.highest) ? "" : ", at most " + written(range.highest);
-  return lowest + highest + (range.infinity_is_legal ? ", or .inf" : "");
 }
 
 std::string written(const XmlRpcValue& value) {
@@ -76,10 +59,24 @@ std::string remedy(const XmlRpcValue& value, XmlRpcValue::Type expected) {
 bool contains(const NumberRange& range, double number) {
   if (std::isinf(number)) return range.infinity_is_legal && number > 0.0;
   return std::isfinite(number) && number <= range.highest &&
-         (range.lowest_is_legal ? number >= range.lowest : number > range.lowest);
+         (range.lowest_is_legal ? number >= range.lowest : number > range.lowest) &&
+         (number == 0.0 || number >= range.least_above_zero);
 }
 
 }  // namespace
+
+std::string NumberRange::in_words() const {
+  std::ostringstream words;
+  words.precision(12);
+  const bool is_bounded = !std::isinf(highest);
+  if (least_above_zero > 0.0) words << "0, or ";
+  if (!lowest_is_legal) words << "above ";
+  if (lowest_is_legal && !is_bounded) words << "at least ";
+  words << std::max(lowest, least_above_zero);
+  if (is_bounded) words << (lowest_is_legal ? " to " : ", up to ") << highest;
+  if (infinity_is_legal) words << ", or .inf";
+  return words.str();
+}
 
 ParameterGroup::ParameterGroup(std::string path, const XmlRpcValue& value,
                                std::vector<std::string> legal_names)
@@ -111,7 +108,7 @@ std::string ParameterGroup::choice(const std::string& name, const std::string& f
 double ParameterGroup::number(const std::string& name, std::optional<double> fallback,
                               const NumberRange& range, bool must_be_whole) const {
   const std::string legal =
-      (must_be_whole ? "must be a whole number, " : "must be a number, ") + written(range);
+      (must_be_whole ? "must be a whole number, " : "must be a number, ") + range.in_words();
   if (!has(name)) {
     if (!fallback) refuse_missing(name, legal);
     return *fallback;
@@ -122,9 +119,6 @@ double ParameterGroup::number(const std::string& name, std::optional<double> fal
   const double number =
       is_whole ? static_cast<const int&>(value) : static_cast<const double&>(value);
   if (!contains(range, number)) refuse(name, legal);
-  if (number != 0.0 && number < range.least_above_zero) {
-    refuse(name, "must be 0 or at least " + written(range.least_above_zero));
-  }
   return number;
 }
 

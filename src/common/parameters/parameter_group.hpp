@@ -27,6 +27,9 @@ struct NumberRange {
   bool lowest_is_legal = true;
   bool infinity_is_legal = false;
   double least_above_zero = 0.0;  ///< smaller numbers are refused, except 0
+
+  /// In few words, for example "0, or 0.001 to 10000".
+  std::string in_words() const;
 };
 
 inline constexpr NumberRange kNotNegative{};
