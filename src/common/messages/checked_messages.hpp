@@ -5,7 +5,6 @@
 #include <ros/subscription_callback_helper.h>
 
 #include <boost/make_shared.hpp>
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -87,8 +86,7 @@ class CheckedSubscription
       rejected_.add("unreadable message",
                     std::to_string(params.length) + " bytes from " +
                         plain_text(from, kLongestName) + " are no " +
-                        ros::message_traits::datatype<Message>() + ": " + error.what(),
-                    std::chrono::steady_clock::now());
+                        ros::message_traits::datatype<Message>() + ": " + error.what());
       return {};
     }
   }
