@@ -38,7 +38,7 @@ struct RobotReply {
 RobotReply parse_reply(const std::string& bytes);
 
 /// The most that reading a robot's description may cost. The program robot_reader sets these limits
-/// for itself, except for the last two, which the node enforces.
+/// for itself, before it reads a file.
 namespace reader_limits {
 
 /// [bytes] The largest address space of robot_reader. It holds a file, its parsed form, and the

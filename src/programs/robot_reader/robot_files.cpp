@@ -4,6 +4,7 @@
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/time.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <boost/algorithm/string/predicate.hpp>
@@ -77,6 +78,8 @@ std::string path_of_url(const std::string& url) {
 }  // namespace
 
 void limit_process() {
+  alarm(static_cast<unsigned>(reader_limits::kTime.count()));
+  limit(RLIMIT_FSIZE, reader_limits::kReplyBytes);
   limit(RLIMIT_CPU, reader_limits::kProcessorTime.count());
 #ifndef ORGAN_COLLISION_SANITIZED  // Sanitizers reserve terabytes of address space.
   limit(RLIMIT_AS, reader_limits::kMemoryBytes);
