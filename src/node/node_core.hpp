@@ -14,7 +14,6 @@
 
 #include "common/messages/text.hpp"
 #include "common/program/program.hpp"
-#include "common/program/run_control.hpp"
 #include "common/threads/queues.hpp"
 #include "common/threads/realtime.hpp"
 #include "node/organs/organ_intake.hpp"
