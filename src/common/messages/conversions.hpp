@@ -55,11 +55,13 @@ inline constexpr double kMaxAheadDefault = 1.0;
 /// stamp is accepted. Before simulated time begins, `now` is zero and every stamp is accepted.
 std::string ahead_fault(ros::Time stamp, ros::Time now, double max_ahead_sec);
 
-/// [s] from one time to another, computed in whole nanoseconds, because ros::Duration overflows for
-/// extreme stamps.
+/// [ns] from one time to another. ros::Duration overflows for extreme stamps.
+inline std::int64_t nanoseconds_between(ros::Time from, ros::Time to) {
+  return static_cast<std::int64_t>(to.toNSec()) - static_cast<std::int64_t>(from.toNSec());
+}
+/// [s] The same in seconds.
 inline double seconds_between(ros::Time from, ros::Time to) {
-  return 1e-9 * static_cast<double>(static_cast<std::int64_t>(to.toNSec()) -
-                                    static_cast<std::int64_t>(from.toNSec()));
+  return 1e-9 * static_cast<double>(nanoseconds_between(from, to));
 }
 
 /// Whether what moved in its last message, which came at `received`, still counts as moving with

@@ -76,15 +76,25 @@ bool is_about(const SceneStep& step, const SceneOrgan& organ) {
 }  // namespace
 
 void MarkerPainter::paint(const Scene& scene, const Publish& publish) {
-  remember(scene);
+  for (const SceneStep& step : scene.steps) {
+    const SceneOrgan* organ = scene.organ(step.answer->organ);
+    if (organ && is_about(step, *organ)) trail_.push_back(step);
+  }
+  while (!trail_.empty() && visibility(trail_.front().time, scene.time) == 0.0) trail_.pop_front();
   const auto picture = boost::make_shared<MarkerArray>();
   add_tools(scene, *picture);
   for (const SceneOrgan& organ : scene.organs) {
     add_touched(scene, organ, *picture);
     std::vector<const SceneStep*> fading;
     for (const ScenePair& pair : organ.pairs) {
+      if (pair.answer) {
+        add_surroundings(organ, pair, (*scene.tools)[pair.tool].parameters.radius, *picture);
+        add_contacts(organ, *pair.answer, 1.0, *picture);
+      }
       fading.push_back(fading_step(scene, organ, pair));
-      add_answer(scene, organ, pair, fading.back(), *picture);
+      if (!fading.back()) continue;
+      const double share = visibility(fading.back()->time, scene.time);
+      add_contacts(organ, *fading.back()->answer, share, *picture);
     }
     add_status(scene, organ, fading, *picture);
   }
@@ -105,14 +115,6 @@ void MarkerPainter::start_anew(const MarkerArray& picture, const Publish& publis
   Marker all = make_marker({"", frame, colours::kText}, Marker::CUBE);
   all.action = Marker::DELETEALL;
   publish_alone(std::move(all), publish);
-}
-
-void MarkerPainter::remember(const Scene& scene) {
-  for (const SceneStep& step : scene.steps) {
-    const SceneOrgan* organ = scene.organ(step.answer->organ);
-    if (organ && is_about(step, *organ)) trail_.push_back(step);
-  }
-  while (!trail_.empty() && visibility(trail_.front().time, scene.time) == 0.0) trail_.pop_front();
 }
 
 void MarkerPainter::paint_surfaces(const Scene& scene, const Publish& publish) {
@@ -202,18 +204,6 @@ const SceneStep* MarkerPainter::fading_step(const Scene& scene, const SceneOrgan
     return is_about(step, organ) && step.answer->tool == tool && !step.answer->contacts.empty();
   });
   return step == trail_.rend() ? nullptr : &*step;
-}
-
-/// Adds what the latest answer tells, and the contacts that fade.
-void MarkerPainter::add_answer(const Scene& scene, const SceneOrgan& organ, const ScenePair& pair,
-                               const SceneStep* fading, MarkerArray& picture) const {
-  if (pair.answer) {
-    add_surroundings(organ, pair, (*scene.tools)[pair.tool].parameters.radius, picture);
-    add_contacts(organ, *pair.answer, 1.0, picture);
-  }
-  if (fading) {
-    add_contacts(organ, *fading->answer, visibility(fading->time, scene.time), picture);
-  }
 }
 
 /// Adds a DELETE for each marker that subscribers have, and that is neither in this picture nor

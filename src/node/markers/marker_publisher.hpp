@@ -41,7 +41,6 @@ class MarkerPainter {
   };
 
   void start_anew(const visualization_msgs::MarkerArray& picture, const Publish& publish);
-  void remember(const Scene& scene);
   void paint_surfaces(const Scene& scene, const Publish& publish);
   bool is_due(const Scene& scene, const SceneOrgan& organ) const;
   void add_tools(const Scene& scene, visualization_msgs::MarkerArray& picture) const;
@@ -49,8 +48,6 @@ class MarkerPainter {
                    visualization_msgs::MarkerArray& picture) const;
   const SceneStep* fading_step(const Scene& scene, const SceneOrgan& organ,
                                const ScenePair& pair) const;
-  void add_answer(const Scene& scene, const SceneOrgan& organ, const ScenePair& pair,
-                  const SceneStep* fading, visualization_msgs::MarkerArray& picture) const;
   void delete_rest(const Scene& scene, visualization_msgs::MarkerArray& picture);
 
   std::map<std::string, Surface> surfaces_;  ///< by the organ's name

@@ -152,7 +152,6 @@ class StepScheduler {
   void plan_failure(ToolStep step, ros::Time stamp, std::uint8_t status,
                     const std::string& message);
 
-  void evaluate_all();
   bool evaluate_due();
   void answer(ToolStep& step, ContactQuery& query) const;
   void deliver(ToolStep& step);
