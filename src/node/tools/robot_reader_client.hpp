@@ -29,7 +29,7 @@ ProcessResult run_process(const std::vector<std::string>& command, const std::st
 /// names. A separate program, robot_reader, reads these files, because the libraries that parse
 /// them crash or hang on broken ones. `urdf`: an absolute path, a URL (package://, file://), or "-"
 /// if `input` is the text of the URDF. Throws ToolError, which names the file, if a link does not
-/// exist, if a shape or mesh cannot be read, or if the program fails or exceeds reader_limits.
+/// exist, if a shape or mesh cannot be read, or if the program fails or exceeds its own limits.
 std::vector<RobotLink> read_robot(const std::string& urdf, const std::string& input,
                                   const std::vector<std::string>& links);
 
