@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include "common/messages/conversions.hpp"
@@ -24,36 +25,27 @@ std::string written(const XmlRpcValue& value) {
 
 /// A value of an unexpected type, with its type.
 std::string with_type(const XmlRpcValue& value) {
-  std::string text = "'" + written(value) + "'";
-  switch (value.getType()) {
-    case XmlRpcValue::TypeString:
-      return "the text " + text;
-    case XmlRpcValue::TypeInt:
-    case XmlRpcValue::TypeDouble:
-      return "the number " + text;
-    case XmlRpcValue::TypeBoolean:
-      return static_cast<const bool&>(value) ? "true" : "false";
-    case XmlRpcValue::TypeArray:
-      return "the list " + text;
-    case XmlRpcValue::TypeStruct:
-      return "a group";
-    default:
-      return text;
+  static const std::map<XmlRpcValue::Type, std::string> kinds = {
+      {XmlRpcValue::TypeString, "the text "},
+      {XmlRpcValue::TypeInt, "the number "},
+      {XmlRpcValue::TypeDouble, "the number "},
+      {XmlRpcValue::TypeArray, "the list "},
+      {XmlRpcValue::TypeStruct, "the group "}};
+  if (value.getType() == XmlRpcValue::TypeBoolean) {
+    return static_cast<const bool&>(value) ? "true" : "false";
   }
+  const auto kind = kinds.find(value.getType());
+  return (kind == kinds.end() ? "" : kind->second) + "'" + written(value) + "'";
 }
 
 /// How to write a value that YAML took for another type than the expected one. Empty if that is not
 /// plain.
 std::string remedy(const XmlRpcValue& value, XmlRpcValue::Type expected) {
   const XmlRpcValue::Type type = value.getType();
+  const bool is_text = type == XmlRpcValue::TypeString && expected != XmlRpcValue::TypeArray;
   if (type == XmlRpcValue::TypeArray || type == XmlRpcValue::TypeStruct) return {};
   if (expected == XmlRpcValue::TypeString) return ": write it in quotes";
-  if (expected == XmlRpcValue::TypeBoolean) return ": write true or false without quotes";
-  if (type == XmlRpcValue::TypeBoolean) return {};
-  if (expected == XmlRpcValue::TypeInt)
-    return ": write it without quotes, decimal point and exponent";
-  if (expected != XmlRpcValue::TypeDouble) return {};
-  return ": write it without quotes; YAML takes 5e-3 for a text, and 5.0e-3 for a number";
+  return is_text ? ": write it without quotes, and 5e-3 as 5.0e-3" : "";
 }
 
 bool contains(const NumberRange& range, double number) {
