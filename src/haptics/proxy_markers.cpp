@@ -65,9 +65,9 @@ std::string name_of(ProxyStatus state) {
 }
 
 std_msgs::ColorRGBA colour_of(ProxyStatus state) {
-  static const std_msgs::ColorRGBA all[] = {colours::kFailure, colours::kText, colours::rgba(0.30F, 0.95F, 0.50F),
-                                                colours::rgba(1.00F, 0.65F, 0.10F),
-                                                colours::rgba(0.80F, 0.50F, 1.00F)};
+  static const std_msgs::ColorRGBA all[] = {
+      colours::kFailure, colours::kText, colours::rgba(0.30F, 0.95F, 0.50F),
+      colours::rgba(1.00F, 0.65F, 0.10F), colours::rgba(0.80F, 0.50F, 1.00F)};
   return all[static_cast<std::size_t>(state)];
 }
 

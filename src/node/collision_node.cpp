@@ -139,8 +139,8 @@ void CollisionNode::tools_changed(const KeptTools& kept) {
 void CollisionNode::end(const std::exception* fault) {
   services_.end();
   if (!fault) return;
-  const std::string message =
-      concatenate("the node broke down: ", fault->what(), "; once it is back, send the organs again");
+  const std::string message = concatenate("the node broke down: ", fault->what(),
+                                          "; once it is back, send the organs again");
   count_failure(counters_.failed, ContactArray::PICKER_FAILED, message);
   touches_.end_all("no answer");
   for (const auto& [name, organ] : pipeline_.inbox.organs.organs()) {

@@ -83,10 +83,10 @@ class CheckedSubscription
       const auto sender = params.connection_header->find("callerid");
       const std::string from =
           sender == params.connection_header->end() ? "a nameless node" : sender->second;
-      rejected_.add("unreadable message",
-                    std::to_string(params.length) + " bytes from " +
-                        plain_text(from, kLongestName) + " are no " +
-                        ros::message_traits::datatype<Message>() + ": " + error.what());
+      rejected_.add("unreadable message", std::to_string(params.length) + " bytes from " +
+                                              plain_text(from, kLongestName) + " are no " +
+                                              ros::message_traits::datatype<Message>() + ": " +
+                                              error.what());
       return {};
     }
   }

@@ -87,11 +87,7 @@ std::string ParameterGroup::choice(const std::string& name, const std::string& f
                                    const std::vector<std::string>& legal_values) const {
   if (!has(name)) return fallback;
   const std::string legal = "must be one of " + listed(legal_values);
-  // Words in quotes would be refused in turn, unless they are legal.
-  if (value_[name].getType() != XmlRpcValue::TypeString) {
-    throw ParameterError(path_of(name) + " is " + with_type(value_[name]) + "; " + legal);
-  }
-  const std::string& text = text_in(value_[name]);
+  const std::string& text = text_in(require(name, XmlRpcValue::TypeString, legal));
   const auto found = std::find(legal_values.begin(), legal_values.end(), text);
   if (found == legal_values.end()) refuse(name, legal);
   return text;

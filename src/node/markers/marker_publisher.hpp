@@ -76,8 +76,8 @@ class MarkerPublisher {
   void add(const ToolStep& step);
 
   // These draw a picture if one is due: there is a subscriber, the last picture is finished, and it
-  // is time for the next one. If markers are switched off, what is still shown disappears at the end
-  // of its lifetime.
+  // is time for the next one. If markers are switched off, what is still shown disappears at the
+  // end of its lifetime.
 
   /// What the collision node has to show: organs, tools and answers.
   void update(const OrganRegistry& organs, const StepHistory& history);

@@ -124,7 +124,8 @@ void add_lifted_face(visualization_msgs::Marker& list, const SceneOrgan& organ, 
 /// Numbers the marker: the ids of each namespace run from 0. Drops a list without points, which
 /// RViz would report as an error.
 void add_marker(visualization_msgs::Marker marker, visualization_msgs::MarkerArray& picture);
-/// Adds a line of text, and returns the place of the next line below it. Heights are shares of `size`.
+/// Adds a line of text, and returns the place of the next line below it. Heights are shares of
+/// `size`.
 Eigen::Vector3d add_text(const MarkerStyle& style, const Eigen::Vector3d& place, double size,
                          const std::string& text, visualization_msgs::MarkerArray& picture);
 void add_line(const MarkerStyle& style, const Eigen::Vector3d& from, const Eigen::Vector3d& to,

@@ -58,10 +58,10 @@ TEST(ChildProcess, SaysHowTheProgramEnded) {
   struct Row {
     std::string script, failure;
   };
-  for (const Row& row : {Row{"exit 0", ""}, Row{"echo partly; exit 3", "ended with exit code 3"},
-                         Row{"kill -SEGV $$", "was ended by signal 11 (Segmentation fault)"},
-                         Row{"ulimit -f 100; exec yes",
-                             "was ended by signal 25 (File size limit exceeded)"}}) {
+  for (const Row& row :
+       {Row{"exit 0", ""}, Row{"echo partly; exit 3", "ended with exit code 3"},
+        Row{"kill -SEGV $$", "was ended by signal 11 (Segmentation fault)"},
+        Row{"ulimit -f 100; exec yes", "was ended by signal 25 (File size limit exceeded)"}}) {
     const std::string unread(10'000'000, 'x');
     EXPECT_EQ(run_shell(row.script, unread).failure, row.failure) << row.script;
   }
