@@ -34,7 +34,6 @@ struct NumberRange {
 
 inline constexpr NumberRange kNotNegative{};
 inline constexpr NumberRange kPositive{0.0, kUnlimited, false};
-inline constexpr NumberRange kPositiveOrInfinite{0.0, kUnlimited, false, true};
 /// [s] The legal periods of timers. ROS timers do not accept periods that are much longer.
 inline constexpr NumberRange kTimerPeriod{0.0, 1e6, false};
 

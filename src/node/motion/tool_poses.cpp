@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <utility>
 
 #include "common/messages/conversions.hpp"
@@ -106,7 +105,6 @@ std::vector<ros::Time> ToolPoses::sample_times(const Tool& tool, const std::stri
     for (std::size_t i = 0; i < most; ++i) stamps[i] = stamps[i * heard / most];
     stamps.resize(most);
     lost.samples_cut = heard - most;
-    lost.deviation_cut = std::numeric_limits<double>::infinity();
     if (lost.unknown.empty()) {
       lost.unknown = concatenate("of the tool's ", heard, " poses in this step, ", most,
                                  " were read; steps must be shorter");
@@ -275,7 +273,7 @@ SampledPath ToolPoses::path(const Tool& tool, const std::string& organ_frame,
   SampledPath built = path.take(static_cast<std::size_t>(sampling_.samples_max));
   sampled.path = std::move(built.path);
   sampled.samples_cut += built.samples_cut;
-  sampled.deviation_cut = std::max(sampled.deviation_cut, built.deviation_cut);
+  sampled.deviation_cut = built.deviation_cut;
   if (sampled.unknown.empty()) sampled.unknown = std::move(built.unknown);
   return sampled;
 }

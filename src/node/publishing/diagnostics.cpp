@@ -123,7 +123,6 @@ void show_queries(const std::vector<std::string>& misspelt, const CollisionPipel
   status.add("faces clipped by OpenGL", steps.picked.drawn);
   status.add("faces decided without OpenGL", steps.picked.undrawn);
   status.add("motion samples cut", steps.samples_cut);
-  status.add("motion samples cut, farthest from the swept way [m]", steps.deviation_cut);
   status.add("transforms after their step", pipeline.inbox.transforms.late());
   status.add("poses merged into later ones", steps.poses_merged);
   status.add("ticks merged into later ones", steps.ticks_merged);

@@ -373,9 +373,7 @@ void StepScheduler::answer(ToolStep& step, ContactQuery& query) const {
 void StepScheduler::deliver(ToolStep& step) {
   OrganToolPair& pair = *step.pair;
   if (step.is_of_shape) ++counts_.answered;
-  const SampledPath& sampled = step.question.sampled;
-  counts_.samples_cut += sampled.samples_cut;
-  counts_.deviation_cut = std::max(counts_.deviation_cut, sampled.deviation_cut);
+  counts_.samples_cut += step.question.sampled.samples_cut;
   counts_.picked.drawn += step.picked.drawn;
   counts_.picked.undrawn += step.picked.undrawn;
   if (step.answer->status == ContactArray::OK) {
