@@ -54,6 +54,18 @@ std::vector<std::uint32_t> touched_faces(const std::vector<Contact>& contacts) {
 void set_failure(ContactArray& answer, std::uint8_t status, const std::string& message) {
   answer.status = status;
   answer.message = plain_text(message, kLongestMessage);
+  answer.contacts.clear();
+  answer.released.clear();
+  answer.regions.clear();
+  answer.unresolved = 0;
+  answer.near.clear();
+  answer.near_more = false;
+  answer.near_unresolved = 0;
+  answer.clearance = {};
+  answer.placement = {};
+  answer.view_min.clear();
+  answer.view_max.clear();
+  answer.path_incomplete = false;
 }
 
 void set_memory(ContactArray& answer, const ContactArray* last) {

@@ -12,8 +12,8 @@
 
 namespace organ_collision {
 
-/// Sets the status and the message of an answer without results. The message becomes plain text of
-/// at most kLongestMessage bytes.
+/// Sets the status and the message, and drops all results. The message becomes plain text of at
+/// most kLongestMessage bytes.
 void set_failure(ContactArray& answer, std::uint8_t status, const std::string& message);
 
 /// Sets what an answer whose status is OK remembers of the answer before: `since` of its contacts,

@@ -53,6 +53,25 @@ TEST(Answers, AboutAnOrganAndATool) {
   EXPECT_EQ(answer, expected);
 }
 
+TEST(Answers, AFailureIsEmpty) {
+  const ContactArray empty = about_hook().unanswered();
+  ContactArray answer = empty, expected = empty;
+  answer.contacts.resize(3);
+  answer.released = {1};
+  answer.view_min = answer.view_max = {0.5};
+  answer.regions.resize(3);
+  answer.near.resize(2);
+  answer.unresolved = answer.near_unresolved = 5;
+  answer.near_more = true;
+  answer.clearance.state = Clearance::KNOWN;
+  answer.placement.tip = ToolPlacement::INSIDE;
+  answer.placement.crossings.resize(1);
+  set_failure(answer, ContactArray::NO_TRANSFORM, "no transform from a to b");
+  expected.status = ContactArray::NO_TRANSFORM;
+  expected.message = "no transform from a to b";
+  EXPECT_EQ(answer, expected);
+}
+
 /// A contact since a time [s].
 Contact since(std::uint32_t face, std::int32_t link, double time, bool touching = true) {
   Contact contact;
