@@ -92,7 +92,11 @@ void HapticProxyNode::handle(SteadyTime) {
 
 void HapticProxyNode::work() {
   follow_hands();
-  markers_.update(inbox_.organs, [this] { return views(); });
+  markers_.update(inbox_.organs, [this](double size) -> Drawing {
+    return [views = views(size)](auto& picture) {
+      for (const ProxyView& view : views) add_proxy(view, picture);
+    };
+  });
 }
 
 void HapticProxyNode::reset() {
@@ -374,8 +378,8 @@ void HapticProxyNode::lose(std::size_t tool, const Rejection& why, Time now) {
   hand.told = now;
 }
 
-/// What RViz shows of each tool.
-std::vector<ProxyView> HapticProxyNode::views() const {
+/// What RViz shows of each tool. `size`: of the largest organ [m], or 0.
+std::vector<ProxyView> HapticProxyNode::views(double size) const {
   std::vector<ProxyView> views;
   if (frame_.name().empty()) return views;
   for (std::size_t tool = 0; tool < core_.tools().size(); ++tool) {
@@ -383,6 +387,7 @@ std::vector<ProxyView> HapticProxyNode::views() const {
     ProxyView view;
     view.tool = core_.tools()[tool];
     view.frame = frame_.name();
+    if (size > 0.0) view.size = size;
     if (hand.proxy) {
       view.hand = hand.proxy->hand();
       view.force = hand.proxy->force();
@@ -487,14 +492,9 @@ void HapticProxyNode::release_tools(const KeptTools& kept) {
 void HapticProxyNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   using diagnostic_msgs::DiagnosticStatus;
   status.summary(DiagnosticStatus::OK, "following");
-  const auto times = counters_.tick_times.summary();
-  constexpr double kMicroseconds = 1e6;
   status.add("frame", frame_.name());
   status.add("ticks rate [1/s]", counters_.ticks.take(SteadyClock::now()));
-  status.add("ticks", times.count);
-  status.add("tick time, median [us]", times.median * kMicroseconds);
-  status.add("tick time, 99th percentile [us]", times.percentile_99 * kMicroseconds);
-  status.add("tick time, worst [us]", times.worst * kMicroseconds);
+  show_times("ticks", "tick time", counters_.tick_times, status);
   status.add("poses merged into later ones", counters_.poses_merged);
   for (const std::string& sentence : parameters_.misspelt) {
     status.mergeSummary(DiagnosticStatus::WARN, sentence);

@@ -15,6 +15,7 @@
 #include "node/publishing/diagnostics.hpp"
 #include "node/steps/collision_pipeline.hpp"
 #include "organ_interpolation.hpp"
+#include "proxy_markers.hpp"
 #include "proxy_publisher.hpp"
 #include "proxy_scene.hpp"
 #include "tool_proxy.hpp"
@@ -89,7 +90,7 @@ class HapticProxyNode final : public OrganNode {
   bool is_due(std::size_t tool, ros::Time stamp, bool have_organs_moved, Time now);
   void tick(Hand& hand, const Timed<ToolPose>& pose, const ProxyScene& scene, Time now,
             const std::string& answered_organ = "");
-  std::vector<ProxyView> views() const;
+  std::vector<ProxyView> views(double size) const;
   void lose(std::size_t tool, const Rejection& why, Time now);
   std::vector<Hand> make_hands(std::vector<Tool>& tools, const KeptTools& kept);
   void reset_proxies(const std::string& why);

@@ -151,15 +151,12 @@ inline ParameterTable table_of(HapticProxyParameters& p) {
       "[s] if the last transform of a frame between an organ's frame and that of the proxies or "
       "the hand came longer ago than this, there is no answer. Static transforms have no age. "
       "0: never");
-  add_picker(t, p.picker);
-  add_limits(t, p);
   t.flag(
       "organ_interpolation", p.organ_interpolation,
       "true: an organ moves from shape to shape, one period late, at most 0.1 s. false: it jumps "
       "to each new shape, as organs of more than 50000 vertices do");
   t.flag("publish_tf", p.publish_tf, "false: no frames TOOL_proxy on /tf");
-  add_marker_rates(t, p.markers);
-  add_realtime(t, p.realtime, "the thread of its steps runs");
+  add_common_rows(t, p, "the thread of its steps runs");
   return t;
 }
 

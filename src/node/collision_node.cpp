@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/messages/text.hpp"
+#include "geometry/concatenate.hpp"
 #include "node/markers/marker_publisher.hpp"
 #include "node/publishing/diagnostics.hpp"
 #include "node/publishing/touch_tracker.hpp"
@@ -49,8 +50,6 @@ class CollisionNode final : public OrganNode {
   void publish(const ToolStep& step);
   void watch_ends(const ToolStep& step);
   void report(const OrganUpdate& update);
-  void forget_touches(const KeptTools& kept);
-  void break_down(const std::string& why);
   void publish_failure(const std::string& organ, const std_msgs::Header& header,
                        std::uint8_t status, const std::string& message);
   void start_ticks();
@@ -105,9 +104,8 @@ void CollisionNode::watch_clock() {
 
 void CollisionNode::work() {
   pipeline_.steps.evaluate(core_.loop().heard_until());
-  if (const auto report = pipeline_.steps.load().take_report()) {
-    counters_.late.add("falls behind", *report, std::chrono::steady_clock::now());
-  }
+  const auto report = pipeline_.steps.load().take_report();
+  if (report) counters_.late.add("falls behind", *report);
   markers_.update(pipeline_.inbox.organs, pipeline_.steps.history());
 }
 
@@ -126,15 +124,30 @@ void CollisionNode::prepare_tools(const std::vector<ToolParameters>& tools) {
 }
 
 void CollisionNode::tools_changed(const KeptTools& kept) {
-  forget_touches(kept);
+  std::set<std::string> staying;
+  for (std::size_t tool = 0; tool < kept.size(); ++tool) {
+    if (kept[tool]) staying.insert(core_.tools()[tool].parameters.name);
+  }
+  touches_.forget_other_tools(staying, "tools changed");
   pipeline_.steps.change_tools(kept);
   markers_.set_tools(core_.tools());
   swaps_.assign(core_.tools().size(), {});
 }
 
+/// If the node broke down, publishes PICKER_FAILED for each organ and tool: subscribers must not
+/// take the silence of the node for the absence of contacts.
 void CollisionNode::end(const std::exception* fault) {
   services_.end();
-  if (fault) break_down(fault->what());
+  if (!fault) return;
+  const std::string message = concatenate("the node broke down: ", fault->what(),
+                                          "; once it is back, send the organs again");
+  count_failure(counters_.failed, ContactArray::PICKER_FAILED, message);
+  touches_.end_all("no answer");
+  for (const auto& [name, organ] : pipeline_.inbox.organs.organs()) {
+    std_msgs::Header header;
+    header.frame_id = organ.frame();
+    publish_failure(name, header, ContactArray::PICKER_FAILED, message);
+  }
 }
 
 /// Publishes the answer of a step, counts it, and shows it.
@@ -143,8 +156,7 @@ void CollisionNode::publish(const ToolStep& step) {
   if (!step.is_starting) count_failure(counters_.failed, answer.status, answer.message);
   if (answer.path_incomplete) {
     counters_.incomplete.add("path not wholly known",
-                             "tool '" + answer.tool + "': " + answer.message,
-                             std::chrono::steady_clock::now());
+                             "tool '" + answer.tool + "': " + answer.message);
   }
   if (answer.status == ContactArray::OK) counters_.query_times.add(step.query_sec);
   contacts_.publish(step.answer);
@@ -176,30 +188,6 @@ void CollisionNode::report(const OrganUpdate& update) {
   }
   if (update.status == ContactArray::OK) return counters_.meshes.count();
   publish_failure(update.message.organ(), update.message.header(), update.status, update.why_not);
-}
-
-/// Ends the touches of the tools that are gone or have changed. `kept`: which tools of the new list
-/// stay.
-void CollisionNode::forget_touches(const KeptTools& kept) {
-  std::set<std::string> staying;
-  for (std::size_t tool = 0; tool < kept.size(); ++tool) {
-    if (kept[tool]) staying.insert(core_.tools()[tool].parameters.name);
-  }
-  touches_.forget_other_tools(staying, "tools changed");
-}
-
-/// Publishes PICKER_FAILED for each organ and tool: subscribers must not take the silence of a node
-/// that broke down for the absence of contacts.
-void CollisionNode::break_down(const std::string& why) {
-  const std::string message =
-      "the node broke down: " + why + "; once it is back, send the organs again";
-  count_failure(counters_.failed, ContactArray::PICKER_FAILED, message);
-  touches_.end_all("no answer");
-  for (const auto& [name, organ] : pipeline_.inbox.organs.organs()) {
-    std_msgs::Header header;
-    header.frame_id = organ.frame();
-    publish_failure(name, header, ContactArray::PICKER_FAILED, message);
-  }
 }
 
 /// Publishes for each tool that there is no answer about the organ.

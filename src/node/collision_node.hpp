@@ -2,7 +2,7 @@
 
 #include <ros/node_handle.h>
 
-#include "common/program/run_control.hpp"
+#include "common/program/program.hpp"
 
 namespace organ_collision {
 

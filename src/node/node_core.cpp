@@ -10,10 +10,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <exception>
 
-#include "common/messages/conversions.hpp"
+#include "common/messages/checked_messages.hpp"
 #include "common/messages/robot_reply.hpp"
+#include "common/messages/text.hpp"
+#include "organ_collision/ros/names.hpp"
 
 namespace organ_collision {
 namespace {
@@ -50,18 +51,6 @@ void warn_of_settings(const std::vector<Tool>& tools, const std::vector<std::str
     if (!tool.fault.empty()) ROS_ERROR("%s", tool.fault.c_str());
     for (const std::string& doubt : doubts(tool)) ROS_WARN("%s", doubt.c_str());
   }
-}
-
-/// Compares the old tools of a node with new ones. Throws ToolError if a new or changed tool has a
-/// fault. An unchanged tool may keep its fault.
-ToolChanges accepted_changes(const std::vector<Tool>& old_tools,
-                             const std::vector<Tool>& new_tools) {
-  ToolChanges changes = compare_tools(old_tools, new_tools);
-  for (std::size_t tool = 0; tool < new_tools.size(); ++tool) {
-    const std::string& fault = new_tools[tool].fault;
-    if (!changes.kept[tool] && !fault.empty()) throw ToolError(fault);
-  }
-  return changes;
 }
 
 }  // namespace
@@ -167,10 +156,22 @@ void NodeCore::start(OrganNode& node) {
   warn_of_settings(tools_, parameters_.misspelt);
   updater().add("scheduling", &realtime_, &Realtime::diagnose);
   live_parameters_.advertise();
-  reload_ = on_queue(private_node_, background_)
-                .advertiseService(names::kReloadTools, &NodeCore::on_reload, this);
-  reset_ = private_node_.advertiseService(names::kReset, &NodeCore::on_reset, this);
-  list_ = private_node_.advertiseService(names::kListTools, &NodeCore::on_list, this);
+  servers_ = {
+      advertise_checked<std_srvs::Trigger>(on_queue(private_node_, background_),
+                                           names::kReloadTools,
+                                           [this](auto&, auto& response) {
+                                             reload(response);
+                                             return true;
+                                           }),
+      advertise_checked<std_srvs::Empty>(private_node_, names::kReset,
+                                         [&node](auto&, auto&) {
+                                           node.reset();
+                                           return true;
+                                         }),
+      advertise_checked<ListTools>(private_node_, names::kListTools, [this](auto&, auto& response) {
+        for (const Tool& tool : tools_) response.tools.push_back(info_of(tool));
+        return true;
+      })};
   node.start();
 }
 
@@ -181,13 +182,17 @@ void NodeCore::end_threads() {
 }
 
 /// Runs in the background thread, because robots' files may take seconds to load.
-bool NodeCore::on_reload(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+void NodeCore::reload(std_srvs::Trigger::Response& response) {
   try {
     const ParameterGroup all = table_.group(all_parameters(private_node_));
     std::vector<std::string> misspelt = all.misspelt();
     std::vector<ToolParameters> parameters = parse_tools(all, misspelt);
     std::vector<Tool> tools = load_tools(parameters, private_node_);
-    const ToolChanges changes = accepted_changes(tools_, tools);
+    const ToolChanges changes = compare_tools(tools_, tools);
+    for (std::size_t tool = 0; tool < tools.size(); ++tool) {  // An unchanged one keeps its fault.
+      const bool is_refused = !changes.kept[tool] && !tools[tool].fault.empty();
+      if (is_refused) throw ToolError(tools[tool].fault);
+    }
     running_->release_tools(changes.kept);
     in_node_thread([&] { exchange_tools(tools, parameters, misspelt, changes.kept); });
     response.success = true;
@@ -197,7 +202,6 @@ bool NodeCore::on_reload(std_srvs::Trigger::Request&, std_srvs::Trigger::Respons
     response.message = plain_text(error.what(), kLongestMessage);
     ROS_WARN("tools stay as they were: %s", response.message.c_str());
   }
-  return true;
 }
 
 void NodeCore::exchange_tools(std::vector<Tool>& tools, std::vector<ToolParameters>& parameters,
@@ -213,16 +217,6 @@ void NodeCore::exchange_tools(std::vector<Tool>& tools, std::vector<ToolParamete
     broken_ = std::current_exception();
     throw;
   }
-}
-
-bool NodeCore::on_reset(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
-  running_->reset();
-  return true;
-}
-
-bool NodeCore::on_list(ListTools::Request&, ListTools::Response& response) {
-  for (const Tool& tool : tools_) response.tools.push_back(info_of(tool));
-  return true;
 }
 
 /// Lets the node tell its subscribers why it ends.

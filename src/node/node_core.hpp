@@ -12,16 +12,13 @@
 #include <string>
 #include <vector>
 
-#include "common/messages/text.hpp"
 #include "common/program/program.hpp"
-#include "common/program/run_control.hpp"
 #include "common/threads/queues.hpp"
 #include "common/threads/realtime.hpp"
 #include "node/organs/organ_intake.hpp"
 #include "node/parameters/node_parameters.hpp"
 #include "node/steps/step.hpp"
 #include "node/tools/tool.hpp"
-#include "organ_collision/ros/names.hpp"
 
 namespace organ_collision {
 
@@ -128,11 +125,9 @@ class NodeCore {
  private:
   void start(OrganNode& node);
   void end_threads();
-  bool on_reload(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
+  void reload(std_srvs::Trigger::Response& response);
   void exchange_tools(std::vector<Tool>& tools, std::vector<ToolParameters>& parameters,
                       std::vector<std::string>& misspelt, const KeptTools& kept);
-  bool on_reset(std_srvs::Empty::Request&, std_srvs::Empty::Response&);
-  bool on_list(ListTools::Request&, ListTools::Response& response);
   void say_last_words(const std::exception& fault);
 
   MessageLoop loop_;
@@ -148,7 +143,7 @@ class NodeCore {
   Diagnostics diagnostics_;
   LiveParameters live_parameters_;  ///< its callbacks run in the background thread
   OrganNode* running_ = nullptr;    ///< the node, while it runs
-  ros::ServiceServer reload_, reset_, list_;
+  std::vector<ros::ServiceServer> servers_;
 };
 
 }  // namespace organ_collision

@@ -90,9 +90,9 @@ TEST(HapticParameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
   EXPECT_EQ(refusal_of<HapticProxyParameters>("frame", "/"),
             "~frame is '/'; must be the name of a TF frame");
   EXPECT_EQ(refusal_of<HapticProxyParameters>("clearance", -1.5),
-            "~clearance is '-1.5'; must be a number, more than 0, at most 0.1");
+            "~clearance is '-1.5'; must be a number, above 0, up to 0.1");
   EXPECT_EQ(refusal_of<HapticProxyParameters>("max_force", 0),
-            "~max_force is '0'; must be a number, more than 0, at most 10000, or .inf");
+            "~max_force is '0'; must be a number, above 0, up to 10000, or .inf");
   XmlRpcValue keep;
   EXPECT_EQ(refusal_of<HapticProxyParameters>("keep", "inside"),
             "~keep is the text 'inside'; must be a list of groups of organ and side");

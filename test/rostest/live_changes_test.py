@@ -112,7 +112,7 @@ class LiveChangesTest(KeepsContract, ToolCase):
         posed = shaft('posed', tip_pose_topic='/tf')
         del posed['tip_frame']
         for tools, words in (
-            ([shaft('kept', radius=-0.25)], ['~tools[0]/radius', '-0.25', 'more than 0']),
+            ([shaft('kept', radius=-0.25)], ['~tools[0]/radius', '-0.25', 'above 0']),
             ([shaft('new'), robot], ["robot: urdf '/no/such/file.urdf'"]),
             ([posed], ['/tf']),
         ):

@@ -5,7 +5,6 @@
 #include <ros/subscription_callback_helper.h>
 
 #include <boost/make_shared.hpp>
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -84,11 +83,10 @@ class CheckedSubscription
       const auto sender = params.connection_header->find("callerid");
       const std::string from =
           sender == params.connection_header->end() ? "a nameless node" : sender->second;
-      rejected_.add("unreadable message",
-                    std::to_string(params.length) + " bytes from " +
-                        plain_text(from, kLongestName) + " are no " +
-                        ros::message_traits::datatype<Message>() + ": " + error.what(),
-                    std::chrono::steady_clock::now());
+      rejected_.add("unreadable message", std::to_string(params.length) + " bytes from " +
+                                              plain_text(from, kLongestName) + " are no " +
+                                              ros::message_traits::datatype<Message>() + ": " +
+                                              error.what());
       return {};
     }
   }

@@ -29,9 +29,8 @@ inline Eigen::Vector3d to_eigen(const geometry_msgs::Vector3& vector) {
 inline Eigen::Quaterniond to_eigen(const geometry_msgs::Quaternion& rotation) {
   return {rotation.w, rotation.x, rotation.y, rotation.z};
 }
-/// Normalises the rotation, because senders round it. tf2::transformToEigen() does not normalise.
+/// These normalise the rotation, because senders round it. Those of tf2 do not.
 Eigen::Isometry3d to_eigen(const geometry_msgs::Transform& transform);
-/// Normalises the rotation, too.
 Eigen::Isometry3d to_eigen(const geometry_msgs::Pose& pose);
 
 /// Whether the length of a quaternion differs from 1 by at most 1e-3. Senders round quaternions. A
@@ -56,11 +55,13 @@ inline constexpr double kMaxAheadDefault = 1.0;
 /// stamp is accepted. Before simulated time begins, `now` is zero and every stamp is accepted.
 std::string ahead_fault(ros::Time stamp, ros::Time now, double max_ahead_sec);
 
-/// [s] from one time to another, computed in whole nanoseconds, because ros::Duration overflows for
-/// extreme stamps.
+/// [ns] from one time to another. ros::Duration overflows for extreme stamps.
+inline std::int64_t nanoseconds_between(ros::Time from, ros::Time to) {
+  return static_cast<std::int64_t>(to.toNSec()) - static_cast<std::int64_t>(from.toNSec());
+}
+/// [s] The same in seconds.
 inline double seconds_between(ros::Time from, ros::Time to) {
-  return 1e-9 * static_cast<double>(static_cast<std::int64_t>(to.toNSec()) -
-                                    static_cast<std::int64_t>(from.toNSec()));
+  return 1e-9 * static_cast<double>(nanoseconds_between(from, to));
 }
 
 /// Whether what moved in its last message, which came at `received`, still counts as moving with
@@ -69,16 +70,5 @@ inline double seconds_between(ros::Time from, ros::Time to) {
 inline bool goes_on(double period_sec, ros::Time received, ros::Time now) {
   return seconds_between(received, now) <= std::min(5.0 * period_sec, 1.0);
 }
-
-/// Notices when ROS time jumps back.
-class ClockWatch {
- public:
-  /// Compares `now` with the latest time of the calls before. If `now` is earlier by more than
-  /// kClockTolerance, logs a warning and returns true.
-  bool has_jumped_back(ros::Time now);
-
- private:
-  ros::Time latest_;
-};
 
 }  // namespace organ_collision

@@ -47,16 +47,15 @@ void check_name(const std::string& what, const std::string& name) {
   throw Rejection(ContactArray::INVALID_REQUEST, "illegal name", what + " " + fault);
 }
 
-void FailureLog::add(const std::string& reason, const std::string& message, Time now,
-                     std::uint64_t times) {
+void FailureLog::add(const std::string& reason, const std::string& message, Time now) {
   const std::string plain = plain_text(message, kLongestMessage);
   std::uint64_t count = 0;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     Entry& entry = entries_[reason];
     const bool is_recent = entry.count > 0 && now - entry.logged < kLogPeriod;
-    count = entry.count += times;
-    entry.not_yet_reported += times;
+    count = ++entry.count;
+    ++entry.not_yet_reported;
     entry.latest = plain;
     if (is_recent) return;
     entry.logged = now;

@@ -53,10 +53,9 @@ class FailureLog {
   };
 
   /// `reason`: one of a few fixed texts, under which failures are counted. `message`: what was
-  /// wrong, with the illegal value. The user reads the message without the reason. `times`: how
-  /// many failures this is; at least 1.
-  void add(const std::string& reason, const std::string& message, Time now,
-           std::uint64_t times = 1);
+  /// wrong, with the illegal value. The user reads the message without the reason.
+  void add(const std::string& reason, const std::string& message,
+           Time now = std::chrono::steady_clock::now());
 
   using Entries = std::map<std::string, Entry>;
   Entries by_reason() const;

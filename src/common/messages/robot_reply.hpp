@@ -2,8 +2,6 @@
 
 #include <organ_collision/RobotLink.h>
 
-#include <chrono>
-#include <cstddef>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -36,27 +34,5 @@ struct RobotReply {
 
 /// Parses a reply. Any bytes may be given: all that is not one complete reply is malformed.
 RobotReply parse_reply(const std::string& bytes);
-
-/// The most that reading a robot's description may cost. The program robot_reader sets these limits
-/// for itself, except for the last two, which the node enforces.
-namespace reader_limits {
-
-/// [bytes] The largest address space of robot_reader. It holds a file, its parsed form, and the
-/// reply to the node.
-inline constexpr std::size_t kMemoryBytes = std::size_t{2} << 30;
-/// The most processor time of robot_reader. For files of the largest legal size, it needs a few
-/// seconds.
-inline constexpr std::chrono::seconds kProcessorTime{10};
-/// The most processor time for the URDF, and for each mesh file, is kParsingTime, and a millisecond
-/// more for every kBytesPerMillisecond bytes. Some broken files keep a parser busy for ever. An OBJ
-/// file is read with 30 MB a second.
-inline constexpr std::chrono::milliseconds kParsingTime{200};
-inline constexpr std::size_t kBytesPerMillisecond = 2000;
-
-/// The most real time of robot_reader. On a busy machine, real time is longer than processor time.
-inline constexpr std::chrono::seconds kTime{30};
-inline constexpr std::size_t kReplyBytes = 500'000'000;
-
-}  // namespace reader_limits
 
 }  // namespace organ_collision

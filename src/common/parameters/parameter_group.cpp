@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include "common/messages/conversions.hpp"
@@ -12,25 +13,8 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-/// Writes a number with 12 digits. With fewer digits, a number that is slightly too large would be
-/// rounded to one that looks legal.
-std::string written(double number) {
-  std::ostringstream text;
-  text.precision(12);
-  text << number;
-  return text.str();
-}
-
 const std::string& text_in(const XmlRpcValue& value) {
   return static_cast<const std::string&>(value);
-}
-
-std::string written(const NumberRange& range) {
-  const std::string lowest =
-      (range.lowest_is_legal ? "at least " : "more than ") + written(range.lowest);
-  const std::string highest =
-      std::isinf(range.highest) ? "" : ", at most " + written(range.highest);
-  return lowest + highest + (range.infinity_is_legal ? ", or .inf" : "");
 }
 
 std::string written(const XmlRpcValue& value) {
@@ -41,45 +25,50 @@ std::string written(const XmlRpcValue& value) {
 
 /// A value of an unexpected type, with its type.
 std::string with_type(const XmlRpcValue& value) {
-  std::string text = "'" + written(value) + "'";
-  switch (value.getType()) {
-    case XmlRpcValue::TypeString:
-      return "the text " + text;
-    case XmlRpcValue::TypeInt:
-    case XmlRpcValue::TypeDouble:
-      return "the number " + text;
-    case XmlRpcValue::TypeBoolean:
-      return static_cast<const bool&>(value) ? "true" : "false";
-    case XmlRpcValue::TypeArray:
-      return "the list " + text;
-    case XmlRpcValue::TypeStruct:
-      return "a group";
-    default:
-      return text;
+  static const std::map<XmlRpcValue::Type, std::string> kinds = {
+      {XmlRpcValue::TypeString, "the text "},
+      {XmlRpcValue::TypeInt, "the number "},
+      {XmlRpcValue::TypeDouble, "the number "},
+      {XmlRpcValue::TypeArray, "the list "},
+      {XmlRpcValue::TypeStruct, "the group "}};
+  if (value.getType() == XmlRpcValue::TypeBoolean) {
+    return static_cast<const bool&>(value) ? "true" : "false";
   }
+  const auto kind = kinds.find(value.getType());
+  return (kind == kinds.end() ? "" : kind->second) + "'" + written(value) + "'";
 }
 
 /// How to write a value that YAML took for another type than the expected one. Empty if that is not
 /// plain.
 std::string remedy(const XmlRpcValue& value, XmlRpcValue::Type expected) {
   const XmlRpcValue::Type type = value.getType();
+  const bool is_text = type == XmlRpcValue::TypeString && expected != XmlRpcValue::TypeArray;
   if (type == XmlRpcValue::TypeArray || type == XmlRpcValue::TypeStruct) return {};
   if (expected == XmlRpcValue::TypeString) return ": write it in quotes";
-  if (expected == XmlRpcValue::TypeBoolean) return ": write true or false without quotes";
-  if (type == XmlRpcValue::TypeBoolean) return {};
-  if (expected == XmlRpcValue::TypeInt)
-    return ": write it without quotes, decimal point and exponent";
-  if (expected != XmlRpcValue::TypeDouble) return {};
-  return ": write it without quotes; YAML takes 5e-3 for a text, and 5.0e-3 for a number";
+  return is_text ? ": write it without quotes, and 5e-3 as 5.0e-3" : "";
 }
 
 bool contains(const NumberRange& range, double number) {
   if (std::isinf(number)) return range.infinity_is_legal && number > 0.0;
   return std::isfinite(number) && number <= range.highest &&
-         (range.lowest_is_legal ? number >= range.lowest : number > range.lowest);
+         (range.lowest_is_legal ? number >= range.lowest : number > range.lowest) &&
+         (number == 0.0 || number >= range.least_above_zero);
 }
 
 }  // namespace
+
+std::string NumberRange::in_words() const {
+  std::ostringstream words;
+  words.precision(12);
+  const bool is_bounded = !std::isinf(highest);
+  if (least_above_zero > 0.0) words << "0, or ";
+  if (!lowest_is_legal) words << "above ";
+  if (lowest_is_legal && !is_bounded) words << "at least ";
+  words << std::max(lowest, least_above_zero);
+  if (is_bounded) words << (lowest_is_legal ? " to " : ", up to ") << highest;
+  if (infinity_is_legal) words << ", or .inf";
+  return words.str();
+}
 
 ParameterGroup::ParameterGroup(std::string path, const XmlRpcValue& value,
                                std::vector<std::string> legal_names)
@@ -98,11 +87,7 @@ std::string ParameterGroup::choice(const std::string& name, const std::string& f
                                    const std::vector<std::string>& legal_values) const {
   if (!has(name)) return fallback;
   const std::string legal = "must be one of " + listed(legal_values);
-  // Words in quotes would be refused in turn, unless they are legal.
-  if (value_[name].getType() != XmlRpcValue::TypeString) {
-    throw ParameterError(path_of(name) + " is " + with_type(value_[name]) + "; " + legal);
-  }
-  const std::string& text = text_in(value_[name]);
+  const std::string& text = text_in(require(name, XmlRpcValue::TypeString, legal));
   const auto found = std::find(legal_values.begin(), legal_values.end(), text);
   if (found == legal_values.end()) refuse(name, legal);
   return text;
@@ -111,7 +96,7 @@ std::string ParameterGroup::choice(const std::string& name, const std::string& f
 double ParameterGroup::number(const std::string& name, std::optional<double> fallback,
                               const NumberRange& range, bool must_be_whole) const {
   const std::string legal =
-      (must_be_whole ? "must be a whole number, " : "must be a number, ") + written(range);
+      (must_be_whole ? "must be a whole number, " : "must be a number, ") + range.in_words();
   if (!has(name)) {
     if (!fallback) refuse_missing(name, legal);
     return *fallback;
@@ -122,9 +107,6 @@ double ParameterGroup::number(const std::string& name, std::optional<double> fal
   const double number =
       is_whole ? static_cast<const int&>(value) : static_cast<const double&>(value);
   if (!contains(range, number)) refuse(name, legal);
-  if (number != 0.0 && number < range.least_above_zero) {
-    refuse(name, "must be 0 or at least " + written(range.least_above_zero));
-  }
   return number;
 }
 

@@ -27,11 +27,13 @@ struct NumberRange {
   bool lowest_is_legal = true;
   bool infinity_is_legal = false;
   double least_above_zero = 0.0;  ///< smaller numbers are refused, except 0
+
+  /// In few words, for example "0, or 0.001 to 10000".
+  std::string in_words() const;
 };
 
 inline constexpr NumberRange kNotNegative{};
 inline constexpr NumberRange kPositive{0.0, kUnlimited, false};
-inline constexpr NumberRange kPositiveOrInfinite{0.0, kUnlimited, false, true};
 /// [s] The legal periods of timers. ROS timers do not accept periods that are much longer.
 inline constexpr NumberRange kTimerPeriod{0.0, 1e6, false};
 

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <iterator>
 #include <sstream>
-#include <type_traits>
 
 #include "common/messages/checked_messages.hpp"
 
@@ -62,20 +61,6 @@ dynamic_reconfigure::ConfigDescription description(const std::vector<Row>& param
   return message;
 }
 
-/// The legal values of a number, in few words: "0, or 0.001 to 10000".
-std::string in_words(const NumberRange& range) {
-  std::ostringstream words;
-  words.precision(12);
-  const bool is_bounded = !std::isinf(range.highest);
-  if (range.least_above_zero > 0.0) words << "0, or ";
-  if (!range.lowest_is_legal) words << "above ";
-  if (range.lowest_is_legal && !is_bounded) words << "at least ";
-  words << std::max(range.lowest, range.least_above_zero);
-  if (is_bounded) words << (range.lowest_is_legal ? " to " : ", up to ") << range.highest;
-  if (range.infinity_is_legal) words << ", or .inf";
-  return words.str();
-}
-
 /// The values in a request, by name.
 XmlRpcValue requested(const Config& request) {
   XmlRpcValue changes;
@@ -90,14 +75,9 @@ XmlRpcValue requested(const Config& request) {
 }  // namespace
 
 double Row::value() const {
-  const auto value_of = [](const auto& member) {
-    if constexpr (std::is_pointer_v<std::decay_t<decltype(member)>>) {
-      return static_cast<double>(*member);
-    } else {
-      return 0.0;
-    }
-  };
-  return std::visit(value_of, member);
+  if (is_flag()) return static_cast<double>(*std::get<bool*>(member));
+  if (is_whole()) return *std::get<int*>(member);
+  return is_number() ? *std::get<double*>(member) : 0.0;
 }
 
 void Row::set_value(double value) const {
@@ -116,7 +96,7 @@ void Row::read(const ParameterGroup& all) const {
 }
 
 HelpEntry Row::help() const {
-  return {name, kind + (is_number() ? "; " + in_words(range) : "") + (is_live ? "; live" : ""),
+  return {name, kind + (is_number() ? "; " + range.in_words() : "") + (is_live ? "; live" : ""),
           text};
 }
 

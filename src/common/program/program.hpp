@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,12 @@ struct ProgramHelp {
   std::vector<HelpEntry> parameters = {};
   std::vector<HelpEntry> tool_keys = {};
   std::string further = {};  ///< how to start the program, or where to read on
+};
+
+/// What a node and the program or nodelet that runs it tell each other.
+struct RunControl {
+  std::atomic<bool> stop{false};        ///< set it, in any thread, to end the node
+  std::function<void()> ready = [] {};  ///< the node calls it when it works
 };
 
 /// Prints the help for --help and -h. Prints one line on standard error for any other argument that

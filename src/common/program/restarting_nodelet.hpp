@@ -8,7 +8,7 @@
 #include <thread>
 #include <utility>
 
-#include "run_control.hpp"
+#include "program.hpp"
 
 namespace organ_collision {
 

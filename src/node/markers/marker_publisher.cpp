@@ -21,9 +21,6 @@ constexpr std::uint32_t kMarkerQueue = 1200;
 /// The pause after each message, so that roscpp's thread, which also receives organs and
 /// transforms, is never busy with markers for long.
 constexpr std::chrono::microseconds kPause(125);
-/// [Hz] If markers are switched off, an empty picture is drawn at this rate. It deletes what is
-/// still shown.
-constexpr double kEmptyRate = 1.0;
 /// The most steps that are kept for the next picture. If more come, all steps that are kept are
 /// dropped, and the picture does not show them.
 constexpr std::size_t kMostSteps = 1000;
@@ -79,53 +76,45 @@ bool is_about(const SceneStep& step, const SceneOrgan& organ) {
 }  // namespace
 
 void MarkerPainter::paint(const Scene& scene, const Publish& publish) {
-  if (scene.anew) start_anew(scene, publish);
-  remember(scene);
-  paint_surfaces(scene, publish);
+  for (const SceneStep& step : scene.steps) {
+    const SceneOrgan* organ = scene.organ(step.answer->organ);
+    if (organ && is_about(step, *organ)) trail_.push_back(step);
+  }
+  while (!trail_.empty() && visibility(trail_.front().time, scene.time) == 0.0) trail_.pop_front();
   const auto picture = boost::make_shared<MarkerArray>();
   add_tools(scene, *picture);
   for (const SceneOrgan& organ : scene.organs) {
     add_touched(scene, organ, *picture);
     std::vector<const SceneStep*> fading;
     for (const ScenePair& pair : organ.pairs) {
+      if (pair.answer) {
+        add_surroundings(organ, pair, (*scene.tools)[pair.tool].parameters.radius, *picture);
+        add_contacts(organ, *pair.answer, 1.0, *picture);
+      }
       fading.push_back(fading_step(scene, organ, pair));
-      add_answer(scene, organ, pair, fading.back(), *picture);
+      if (!fading.back()) continue;
+      const double share = visibility(fading.back()->time, scene.time);
+      add_contacts(organ, *fading.back()->answer, share, *picture);
     }
-    add_status(scene, organ, fading, mean_query_sec_, *picture);
+    add_status(scene, organ, fading, *picture);
   }
-  for (const ProxyView& view : scene.proxies) add_proxy(view, *picture);
+  if (scene.more) scene.more(*picture);
+  if (scene.anew) start_anew(*picture, publish);
+  paint_surfaces(scene, publish);
   delete_rest(scene, *picture);
   if (!picture->markers.empty()) publish(picture);
 }
 
 /// Deletes all markers, and forgets which were sent. A new subscriber may still show what an
 /// earlier run of the node published.
-void MarkerPainter::start_anew(const Scene& scene, const Publish& publish) {
+void MarkerPainter::start_anew(const MarkerArray& picture, const Publish& publish) {
   shown_.clear();
   surfaces_.clear();
-  std::string frame;
-  if (!scene.organs.empty()) frame = scene.organs.front().frame;
-  if (!scene.proxies.empty()) frame = scene.proxies.front().frame;
-  if (frame.empty()) return;  // RViz ignores a marker without a frame.
+  if (picture.markers.empty()) return;
+  const std::string& frame = picture.markers.front().header.frame_id;  // RViz demands a known one.
   Marker all = make_marker({"", frame, colours::kText}, Marker::CUBE);
   all.action = Marker::DELETEALL;
   publish_alone(std::move(all), publish);
-}
-
-void MarkerPainter::remember(const Scene& scene) {
-  for (const SceneStep& step : scene.steps) {
-    const SceneOrgan* organ = scene.organ(step.answer->organ);
-    if (organ && is_about(step, *organ)) trail_.push_back(step);
-    if (step.query_sec == 0.0) continue;
-    query_sec_sum_ += step.query_sec;
-    ++query_count_;
-  }
-  while (!trail_.empty() && visibility(trail_.front().time, scene.time) == 0.0) trail_.pop_front();
-  if (query_count_ == 0 || scene.time - mean_since_ < std::chrono::seconds(1)) return;
-  mean_query_sec_ = query_sec_sum_ / static_cast<double>(query_count_);
-  mean_since_ = scene.time;
-  query_sec_sum_ = 0.0;
-  query_count_ = 0;
 }
 
 void MarkerPainter::paint_surfaces(const Scene& scene, const Publish& publish) {
@@ -217,18 +206,6 @@ const SceneStep* MarkerPainter::fading_step(const Scene& scene, const SceneOrgan
   return step == trail_.rend() ? nullptr : &*step;
 }
 
-/// Adds what the latest answer tells, and the contacts that fade.
-void MarkerPainter::add_answer(const Scene& scene, const SceneOrgan& organ, const ScenePair& pair,
-                               const SceneStep* fading, MarkerArray& picture) const {
-  if (pair.answer) {
-    add_surroundings(organ, pair, (*scene.tools)[pair.tool].parameters.radius, picture);
-    add_contacts(organ, *pair.answer, 1.0, picture);
-  }
-  if (fading) {
-    add_contacts(organ, *fading->answer, visibility(fading->time, scene.time), picture);
-  }
-}
-
 /// Adds a DELETE for each marker that subscribers have, and that is neither in this picture nor
 /// part of a surface that is shown.
 void MarkerPainter::delete_rest(const Scene& scene, MarkerArray& picture) {
@@ -276,11 +253,10 @@ void MarkerPublisher::set_tools(const std::vector<Tool>& tools) {
 }
 
 void MarkerPublisher::add(const ToolStep& step) {
-  if (subscribers_ == 0 || is_switched_off()) return;
+  if (subscribers_ == 0 || settings_.markers_rate_hz == 0.0) return;
   if (steps_.size() >= kMostSteps) steps_.clear();
   steps_.push_back({std::chrono::steady_clock::now(), step.answer,
-                    step.question.shape.mesh->shared_faces(), step.question.sampled.path,
-                    step.query_sec});
+                    step.question.shape.mesh->shared_faces(), step.question.sampled.path});
 }
 
 void MarkerPublisher::update(const OrganRegistry& organs, const StepHistory& history) {
@@ -297,19 +273,16 @@ void MarkerPublisher::update(const OrganRegistry& organs, const StepHistory& his
       if (pair.last) known.pose = pair.last->pose;
     }
   }
-  if (!is_switched_off()) scene->steps = std::exchange(steps_, {});
+  scene->steps = std::exchange(steps_, {});
   draw(std::move(*scene));
 }
 
-void MarkerPublisher::update(const OrganRegistry& organs, const Views& views) {
+void MarkerPublisher::update(const OrganRegistry& organs, const Draw& draw_more) {
   std::optional<Scene> scene = next_scene(organs);
   if (!scene) return;
-  if (!is_switched_off()) scene->proxies = views();
   double size = 0.0;
   for (const SceneOrgan& organ : scene->organs) size = std::max(size, organ.size());
-  for (ProxyView& view : scene->proxies) {
-    if (size > 0.0) view.size = size;
-  }
+  scene->more = draw_more(size);
   if (settings_.surface_rate_hz == 0.0) scene->organs.clear();
   draw(std::move(*scene));
 }
@@ -317,16 +290,14 @@ void MarkerPublisher::update(const OrganRegistry& organs, const Views& views) {
 /// The scene of the next picture, with organs and tools. std::nullopt if no picture is due.
 std::optional<Scene> MarkerPublisher::next_scene(const OrganRegistry& organs) {
   const SteadyTime now = std::chrono::steady_clock::now();
-  if (subscribers_ == 0 || now < due_ || is_drawing_) return std::nullopt;
-  const std::chrono::duration<double> period(
-      1.0 / (is_switched_off() ? kEmptyRate : settings_.markers_rate_hz));
-  due_ = now + std::chrono::duration_cast<SteadyTime::duration>(period);
+  const double rate = settings_.markers_rate_hz;
+  if (subscribers_ == 0 || rate == 0.0 || now < due_ || is_drawing_) return std::nullopt;
+  due_ = now + std::chrono::duration_cast<SteadyTime::duration>(
+                   std::chrono::duration<double>(1.0 / rate));
   Scene scene;
   scene.time = now;
   scene.settings = settings_;
   scene.anew = std::exchange(anew_, false);
-  scene.tools = std::make_shared<std::vector<Tool>>();
-  if (is_switched_off()) return scene;
   scene.tools = tools_;
   for (const auto& [name, organ] : organs.organs()) {
     scene.organs.push_back({name, organ.frame(), organ.latest().mesh});

@@ -40,8 +40,7 @@ class MarkerPainter {
     std::string frame;
   };
 
-  void start_anew(const Scene& scene, const Publish& publish);
-  void remember(const Scene& scene);
+  void start_anew(const visualization_msgs::MarkerArray& picture, const Publish& publish);
   void paint_surfaces(const Scene& scene, const Publish& publish);
   bool is_due(const Scene& scene, const SceneOrgan& organ) const;
   void add_tools(const Scene& scene, visualization_msgs::MarkerArray& picture) const;
@@ -49,8 +48,6 @@ class MarkerPainter {
                    visualization_msgs::MarkerArray& picture) const;
   const SceneStep* fading_step(const Scene& scene, const SceneOrgan& organ,
                                const ScenePair& pair) const;
-  void add_answer(const Scene& scene, const SceneOrgan& organ, const ScenePair& pair,
-                  const SceneStep* fading, visualization_msgs::MarkerArray& picture) const;
   void delete_rest(const Scene& scene, visualization_msgs::MarkerArray& picture);
 
   std::map<std::string, Surface> surfaces_;  ///< by the organ's name
@@ -58,13 +55,6 @@ class MarkerPainter {
   /// DELETE without a frame.
   std::map<std::pair<std::string, int>, std::string> shown_;
   std::deque<SceneStep> trail_;  ///< the recent steps, which fade
-
-  // The mean time of the queries within about a second. It changes only once a second, so that
-  // people can read it.
-  SteadyTime mean_since_;
-  double query_sec_sum_ = 0.0;
-  std::size_t query_count_ = 0;
-  double mean_query_sec_ = 0.0;
 };
 
 /// The topic of a node's markers. The node's thread only notes what there is to see. A thread of
@@ -74,7 +64,7 @@ class MarkerPainter {
 /// Only one thread may call these functions: the node's.
 class MarkerPublisher {
  public:
-  using Views = std::function<std::vector<ProxyView>()>;
+  using Draw = std::function<Drawing(double size)>;
 
   MarkerPublisher(ros::NodeHandle private_node, const MarkerSettings& settings,
                   const std::vector<Tool>& tools = {});
@@ -86,16 +76,16 @@ class MarkerPublisher {
   void add(const ToolStep& step);
 
   // These draw a picture if one is due: there is a subscriber, the last picture is finished, and it
-  // is time for the next one. If markers are switched off, an empty picture is due now and then.
+  // is time for the next one. If markers are switched off, what is still shown disappears at the
+  // end of its lifetime.
 
   /// What the collision node has to show: organs, tools and answers.
   void update(const OrganRegistry& organs, const StepHistory& history);
-  /// What haptic_proxy has to show: hands, proxies and organs. `views` makes a view of each proxy.
-  /// It is called only if a picture is due. The `size` of each view is set here.
-  void update(const OrganRegistry& organs, const Views& views);
+  /// What another node has to show: its organs, and what `draw_more` makes. It is called only if a
+  /// picture is due. `size`: of the largest organ [m]; 0 if there is none.
+  void update(const OrganRegistry& organs, const Draw& draw_more);
 
  private:
-  bool is_switched_off() const { return settings_.markers_rate_hz == 0.0; }
   std::optional<Scene> next_scene(const OrganRegistry& organs);
   void draw(Scene scene);
 

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,7 +16,6 @@
 #include "node/tools/tool.hpp"
 #include "organ_collision/geometry/organ/triangle_mesh.hpp"
 #include "organ_collision/geometry/tool/tool_path.hpp"
-#include "organ_collision/query/haptic_proxy.hpp"
 
 namespace organ_collision {
 
@@ -45,18 +45,10 @@ struct SceneStep {
   ContactArrayConstPtr answer;
   SharedFaces faces;  ///< the organ's triangles at that time
   ToolPath path;      ///< empty if the step failed
-  double query_sec;
 };
 
-/// A hand and its proxy.
-struct ProxyView {
-  Tool tool;
-  std::string frame;             ///< the proxy's frame
-  std::optional<ToolPose> hand;  ///< the hand's pose in this frame; not set: it is not known
-  ProxyAnswer answer;            ///< the answer to this pose of the hand
-  double force = 0.0;            ///< [N] the magnitude of the force on the hand
-  double size = 0.1;  ///< [m] the scene's size: widths and heights of texts are shares of it
-};
+/// Adds markers to a picture, in the drawing thread.
+using Drawing = std::function<void(visualization_msgs::MarkerArray& picture)>;
 
 /// What one picture shows. It shares or copies everything, so that another thread can draw it.
 struct Scene {
@@ -66,7 +58,7 @@ struct Scene {
   std::shared_ptr<const std::vector<Tool>> tools;
   std::vector<SceneOrgan> organs;
   std::vector<SceneStep> steps;  ///< the oldest first
-  std::vector<ProxyView> proxies;
+  Drawing more = {};             ///< adds what else there is to show; empty: nothing
 
   /// The organ with this name. Null if there is none.
   const SceneOrgan* organ(const std::string& name) const {
@@ -76,9 +68,6 @@ struct Scene {
     return nullptr;
   }
 };
-
-/// The name of a proxy's state, as in msg/ProxyState.msg.
-std::string name_of(ProxyStatus state);
 
 // How it is drawn. Lengths are in metres, unless they are shares of a size.
 
@@ -100,8 +89,6 @@ inline const std_msgs::ColorRGBA kFailure = rgba(1.00F, 0.45F, 0.35F);
 /// The colour map of depths: `share` is 0 for a first touch (yellow) and 1 for the greatest depth
 /// that the map distinguishes (dark violet). Values beyond are clamped.
 std_msgs::ColorRGBA depth(double share);
-/// The colour for the state of a proxy: for its text, and for the line between hand and proxy.
-std_msgs::ColorRGBA proxy(ProxyStatus state);
 /// The colour with its opacity multiplied by `share` in [0, 1].
 std_msgs::ColorRGBA faded(std_msgs::ColorRGBA colour, double share);
 
@@ -137,9 +124,8 @@ void add_lifted_face(visualization_msgs::Marker& list, const SceneOrgan& organ, 
 /// Numbers the marker: the ids of each namespace run from 0. Drops a list without points, which
 /// RViz would report as an error.
 void add_marker(visualization_msgs::Marker marker, visualization_msgs::MarkerArray& picture);
-/// Adds a marker for each line of a text, from `place` downwards, and returns the place of the next
-/// line. Lines that are too long for a window are cut at a space. Heights are shares of `size`.
-/// RViz would draw the lines of one marker far apart.
+/// Adds a line of text, and returns the place of the next line below it. Heights are shares of
+/// `size`.
 Eigen::Vector3d add_text(const MarkerStyle& style, const Eigen::Vector3d& place, double size,
                          const std::string& text, visualization_msgs::MarkerArray& picture);
 void add_line(const MarkerStyle& style, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
@@ -162,11 +148,11 @@ void add_surroundings(const SceneOrgan& organ, const ScenePair& pair, double rad
 /// `share`: how visible arrows and names are, in [0, 1].
 void add_contacts(const SceneOrgan& organ, const ContactArray& answer, double share,
                   visualization_msgs::MarkerArray& picture);
-/// Adds a text below the organ: its name, a line for each tool, and the query time [s] if it is
-/// above 0. If there are several organs, tools beyond their margin have no line. `fading`: for each
-/// pair, the step whose contacts are still shown though they have ended; null: none.
+/// Adds a text below the organ: its name, and a line for each tool. If there are several organs,
+/// tools beyond their margin have no line. `fading`: for each pair, the step whose contacts are
+/// still shown though they have ended; null: none.
 void add_status(const Scene& scene, const SceneOrgan& organ,
-                const std::vector<const SceneStep*>& fading, double query_sec,
+                const std::vector<const SceneStep*>& fading,
                 visualization_msgs::MarkerArray& picture);
 
 /// Adds the tool at a pose in the frame of the style: its shaft as a capsule, and the shapes of its
@@ -178,9 +164,5 @@ void add_tool(const Tool& tool, const ToolPose& pose, const MarkerStyle& style,
 /// the links. It fades with the age of the steps.
 void add_swept(const Tool& tool, const std::vector<const SceneStep*>& steps,
                const std::string& frame, SteadyTime now, visualization_msgs::MarkerArray& picture);
-/// Adds the proxy as a solid tool. If tissue holds it back, adds the hand as a translucent tool,
-/// the spring between the two as a line, and an arrow for each force on the tissue. If there is no
-/// answer, adds only the hand. Always adds the state as a text above the tool's far end.
-void add_proxy(const ProxyView& view, visualization_msgs::MarkerArray& picture);
 
 }  // namespace organ_collision

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 
-#include "common/messages/text.hpp"
 #include "geometry/tool/leg_motion.hpp"
 #include "markers.hpp"
 #include "query/step.hpp"
@@ -28,13 +26,6 @@ std_msgs::ColorRGBA depth(double share) {
   const auto &from = stops[lower], &to = stops[lower + 1];
   return rgba(from.r + part * (to.r - from.r), from.g + part * (to.g - from.g),
               from.b + part * (to.b - from.b));
-}
-
-std_msgs::ColorRGBA proxy(ProxyStatus state) {
-  static const std_msgs::ColorRGBA colours[] = {kFailure, kText, rgba(0.30F, 0.95F, 0.50F),
-                                                rgba(1.00F, 0.65F, 0.10F),
-                                                rgba(0.80F, 0.50F, 1.00F)};
-  return colours[static_cast<std::size_t>(state)];
 }
 
 std_msgs::ColorRGBA faded(std_msgs::ColorRGBA colour, double share) {
@@ -93,24 +84,12 @@ void add_marker(Marker marker, MarkerArray& picture) {
 Vector3d add_text(const MarkerStyle& style, const Vector3d& place, double size,
                   const std::string& text, MarkerArray& picture) {
   constexpr double kHeight = 0.036, kSpacing = 0.054;  // Shares of the size.
-  constexpr std::size_t kLongest = 80;  // [bytes] The window of scripts/view.py shows as much.
-  Vector3d next = place;
-  for (std::size_t begin = 0; begin < text.size();) {
-    std::size_t end = std::min(text.find('\n', begin), text.size());
-    if (end - begin > kLongest) {
-      std::size_t space = text.rfind(' ', begin + kLongest);
-      if (space == std::string::npos || space <= begin) space = text.find(' ', begin);
-      end = std::min(end, space);
-    }
-    Marker marker = make_marker(style, Marker::TEXT_VIEW_FACING);
-    marker.pose.position = tf2::toMsg(next);
-    marker.scale.z = kHeight * size;
-    marker.text = text.substr(begin, end - begin);
-    add_marker(std::move(marker), picture);
-    next.z() -= kSpacing * size;
-    begin = end + 1;
-  }
-  return next;
+  Marker marker = make_marker(style, Marker::TEXT_VIEW_FACING);
+  marker.pose.position = tf2::toMsg(place);
+  marker.scale.z = kHeight * size;
+  marker.text = text;
+  add_marker(std::move(marker), picture);
+  return place - kSpacing * size * Vector3d::UnitZ();
 }
 
 void add_line(const MarkerStyle& style, const Vector3d& from, const Vector3d& to, double width,
@@ -138,10 +117,6 @@ void add_arrow(const MarkerStyle& style, const Vector3d& tail, const Vector3d& h
 namespace {
 
 const std_msgs::ColorRGBA kSwept = colours::rgba(0.20F, 0.60F, 1.00F, 0.45F);
-/// The tool at the hand's pose, while tissue holds the proxy back.
-const std_msgs::ColorRGBA kHand = colours::rgba(0.45F, 0.75F, 1.00F, 0.40F);
-/// The force of a proxy on the tissue.
-const std_msgs::ColorRGBA kLoad = colours::rgba(1.00F, 0.80F, 0.15F);
 
 /// A link's mesh with more faces than this is drawn as its bounding box, because the tools are sent
 /// with each picture.
@@ -232,45 +207,6 @@ void add_leg(const Tool& tool, const ToolWaypoint& from, const ToolWaypoint& to,
   }
 }
 
-/// Adds an arrow for each force of the proxy on the tissue. The longest arrow stands for the
-/// greatest force.
-void add_loads(const ProxyView& view, MarkerArray& picture) {
-  constexpr double kLongest = 0.10;                  // A share of the scene's size.
-  std::vector<std::pair<Vector3d, Vector3d>> loads;  // Points, and forces divided by the stiffness.
-  for (const ProxyFace& at : view.answer.contacts) {
-    loads.emplace_back(at.contact.point, at.load * at.contact.normal);
-  }
-  for (const ProxyCrossing& at : view.answer.crossings) loads.emplace_back(at.point, at.load);
-  double greatest = 0.0;
-  for (const auto& [point, force] : loads) greatest = std::max(greatest, force.norm());
-  if (greatest == 0.0) return;
-  for (const auto& [point, force] : loads) {
-    add_arrow({"loads", view.frame, kLoad}, point - kLongest * view.size / greatest * force, point,
-              {}, picture);
-  }
-}
-
-/// The end of the hand's tool that is far from tissue: the trocar of a shaft, else the origin of
-/// the first link. The origin of the frame if there is no hand.
-Vector3d far_end(const ProxyView& view) {
-  if (!view.hand) return Vector3d::Zero();
-  if (view.tool.parameters.has_shaft()) return view.hand->axis.trocar;
-  return view.hand->links.front().translation();
-}
-
-/// For example "probe: TOUCHING, 1.2 N". If there is no answer, for example "probe: NO_ANSWER:
-/// ...", with the reason.
-std::string state_line(const ProxyView& view) {
-  constexpr std::size_t kLongestReason = 100;  // [bytes]
-  const std::string line = view.tool.parameters.name + ": " + name_of(view.answer.state);
-  if (view.answer.state == ProxyStatus::kNoAnswer) {
-    return line + ": " + plain_text(view.answer.message, kLongestReason);
-  }
-  char force[32];
-  std::snprintf(force, sizeof force, ", %.1f N", view.force);
-  return line + force;
-}
-
 }  // namespace
 
 void add_tool(const Tool& tool, const ToolPose& pose, const MarkerStyle& style,
@@ -301,33 +237,6 @@ void add_swept(const Tool& tool, const std::vector<const SceneStep*>& steps,
     }
   }
   add_marker(std::move(swept), picture);
-}
-
-std::string name_of(ProxyStatus state) {
-  static constexpr const char* kNames[] = {"NO_ANSWER", "FREE", "TOUCHING", "SQUEEZED",
-                                           "PUNCTURED"};
-  return kNames[static_cast<std::size_t>(state)];
-}
-
-void add_proxy(const ProxyView& view, MarkerArray& picture) {
-  // Shares of the scene's size.
-  constexpr double kSpringWidth = 6e-3;
-  constexpr double kTextLift = 0.06;  // The distance of the text from the far end of the tool.
-  const ProxyAnswer& answer = view.answer;
-  const std_msgs::ColorRGBA colour = colours::proxy(answer.state);
-  if (view.hand && answer.state != ProxyStatus::kFree) {
-    add_tool(view.tool, *view.hand, {"hand", view.frame, kHand}, picture);
-  }
-  if (answer.state != ProxyStatus::kNoAnswer) {
-    add_tool(view.tool, answer.proxy, {"proxy", view.frame, colours::kTool}, picture);
-    if (!answer.pull.isZero(0.0)) {
-      add_line({"spring", view.frame, colour}, answer.center, answer.center + answer.pull,
-               kSpringWidth * view.size, picture);
-    }
-    add_loads(view, picture);
-  }
-  add_text({"state", view.frame, colour}, far_end(view) + kTextLift * view.size * Vector3d::UnitZ(),
-           view.size, state_line(view), picture);
 }
 
 }  // namespace organ_collision

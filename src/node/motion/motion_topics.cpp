@@ -3,7 +3,6 @@
 #include <tf2_eigen/tf2_eigen.h>
 
 #include <algorithm>
-#include <chrono>
 #include <stdexcept>
 
 #include "common/messages/checked_messages.hpp"
@@ -233,7 +232,7 @@ bool MotionTopics::check(const PoseStamped& pose, const std::string& frame) {
 void MotionTopics::reject(const std::string& what, const std::string& frame,
                           const std::string& why) {
   const std::string of = frame.empty() && what == "pose" ? "a base" : "'" + frame + "'";
-  rejected_.add(what, what + " of " + of + why, std::chrono::steady_clock::now());
+  rejected_.add(what, what + " of " + of + why);
 }
 
 }  // namespace organ_collision

@@ -13,7 +13,7 @@ namespace organ_collision {
 struct SampledPath {
   ToolPath path = {};
   std::size_t samples_cut = 0;
-  /// [m] The largest distance of a dropped pose from the path; infinite if a pose was not read.
+  /// [m] The largest distance of a dropped pose from the path, of those that were read.
   double deviation_cut = 0.0;
   /// Which part of the motion is not known or was left out; empty: none, except for 1e-6 m.
   std::string unknown = {};

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <utility>
 
 #include "common/messages/conversions.hpp"
@@ -48,12 +47,6 @@ bool is_near(const ToolPose& pose) {
   return is_in_range(pose.axis.trocar) && is_in_range(pose.axis.tip) &&
          std::all_of(pose.links.begin(), pose.links.end(),
                      [](const auto& link) { return is_in_range(link.translation()); });
-}
-
-/// [ns] The time between two stamps, in whole nanoseconds, because ros::Duration overflows for
-/// extreme stamps.
-std::int64_t elapsed(ros::Time from, ros::Time to) {
-  return static_cast<std::int64_t>(to.toNSec()) - static_cast<std::int64_t>(from.toNSec());
 }
 
 /// How many samples, one each `spacing_sec`, lie strictly between two times that are `gap_sec`
@@ -112,7 +105,6 @@ std::vector<ros::Time> ToolPoses::sample_times(const Tool& tool, const std::stri
     for (std::size_t i = 0; i < most; ++i) stamps[i] = stamps[i * heard / most];
     stamps.resize(most);
     lost.samples_cut = heard - most;
-    lost.deviation_cut = std::numeric_limits<double>::infinity();
     if (lost.unknown.empty()) {
       lost.unknown = concatenate("of the tool's ", heard, " poses in this step, ", most,
                                  " were read; steps must be shorter");
@@ -127,7 +119,7 @@ std::vector<ros::Time> ToolPoses::sample_times(const Tool& tool, const std::stri
   for (const ros::Time stamp : stamps) {
     const double gap = seconds_between(from, stamp);
     const auto count = static_cast<std::int64_t>(samples_between(gap, spacing));
-    const auto step = static_cast<std::uint64_t>(elapsed(from, stamp) / (count + 1));
+    const auto step = static_cast<std::uint64_t>(nanoseconds_between(from, stamp) / (count + 1));
     std::uint64_t time = from.toNSec();
     for (std::int64_t i = 0; i < count; ++i) times.emplace_back().fromNSec(time += step);
     times.push_back(stamp);
@@ -238,7 +230,7 @@ std::string ToolPoses::why_not(const Tool& tool, const std::string& organ_frame,
 
 SampledPath ToolPoses::path(const Tool& tool, const std::string& organ_frame,
                             const Timed<ToolPose>& from, const Timed<ToolPose>& to) const {
-  const auto duration = static_cast<double>(elapsed(from.stamp, to.stamp));
+  const auto duration = static_cast<double>(nanoseconds_between(from.stamp, to.stamp));
   PathBuilder path(tool.links, from.value);
   SampledPath sampled;
   std::size_t more = most_read();
@@ -248,7 +240,7 @@ SampledPath ToolPoses::path(const Tool& tool, const std::string& organ_frame,
     std::vector<Timed<ToolPose>> ahead = {sample};
     while (!ahead.empty()) {
       const Timed<ToolPose>& next = ahead.back();
-      const std::int64_t gap = elapsed(last.stamp, next.stamp);
+      const std::int64_t gap = nanoseconds_between(last.stamp, next.stamp);
       if (more > 0 && gap > kShortest && path.is_far(last.value, next.value)) {
         ros::Time half_way;
         half_way.fromNSec(last.stamp.toNSec() + static_cast<std::uint64_t>(gap / 2));
@@ -260,7 +252,7 @@ SampledPath ToolPoses::path(const Tool& tool, const std::string& organ_frame,
           continue;
         }
       }
-      const auto passed = static_cast<double>(elapsed(from.stamp, next.stamp));
+      const auto passed = static_cast<double>(nanoseconds_between(from.stamp, next.stamp));
       path.add(next.stamp == to.stamp ? 1.0 : passed / duration, next.value);
       last = std::move(ahead.back());
       ahead.pop_back();
@@ -281,7 +273,7 @@ SampledPath ToolPoses::path(const Tool& tool, const std::string& organ_frame,
   SampledPath built = path.take(static_cast<std::size_t>(sampling_.samples_max));
   sampled.path = std::move(built.path);
   sampled.samples_cut += built.samples_cut;
-  sampled.deviation_cut = std::max(sampled.deviation_cut, built.deviation_cut);
+  sampled.deviation_cut = built.deviation_cut;
   if (sampled.unknown.empty()) sampled.unknown = std::move(built.unknown);
   return sampled;
 }

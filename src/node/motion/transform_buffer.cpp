@@ -40,11 +40,11 @@ using NotFound = Lookup<Eigen::Isometry3d>;
 
 NotFound late(const std::string& target, const std::string& source, ros::Time latest,
               ros::Time time) {
-  // In whole nanoseconds, because ros::Duration overflows for extreme stamps.
-  const double behind_sec = 1e-9 * static_cast<double>(time.toNSec() - latest.toNSec());
-  const std::string text = concatenate("TF from '", source, "' to '", target, "' is ",
-                                       duration_text(behind_sec), " behind the stamp ", time);
-  return {std::nullopt, text, true};
+  const std::string behind = duration_text(seconds_between(latest, time));
+  return {std::nullopt,
+          concatenate("TF from '", source, "' to '", target, "' is ", behind, " behind the stamp ",
+                      time),
+          true};
 }
 
 /// Says why TF has no transform at `time`. `error`: what tf2 threw.

@@ -156,8 +156,8 @@ OrganUpdate OrganIntake::apply(OrganMessage waiting) {
     return message.built.valid() ? message.built.get() : organs_.build(message.mesh);
   };
   try {
-    update.change = message.mesh ? organs_.apply(message.mesh, message.connection, now, built)
-                                 : organs_.apply(message.vertices, message.connection, now);
+    update.change = message.mesh ? organs_.apply(message.mesh, now, message.connection, built)
+                                 : organs_.apply(message.vertices, now, message.connection);
     if (update.change == OrganChange::kSender) {
       ROS_INFO("organ '%s': its sender has restarted, so a new history begins",
                message.organ().c_str());

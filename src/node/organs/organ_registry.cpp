@@ -58,8 +58,8 @@ bool OrganRegistry::is_new(const OrganMesh& message, const Connection& connectio
          !latest.has_triangles(message.triangles);
 }
 
-OrganChange OrganRegistry::apply(const OrganMeshConstPtr& pointer, const Connection& connection,
-                                 ros::Time now, const Build& built) {
+OrganChange OrganRegistry::apply(const OrganMeshConstPtr& pointer, ros::Time now,
+                                 const Connection& connection, const Build& built) {
   const OrganMesh& message = *pointer;
   if (message.organ.empty()) refuse("empty name", "organ mesh without a name in `organ`");
   check_name("organ", message.organ);
@@ -78,7 +78,8 @@ OrganChange OrganRegistry::apply(const OrganMeshConstPtr& pointer, const Connect
     }
     check_name("header.frame_id", frame);
     check_stamp(message.header.stamp, now, named);
-    OrganChange change = set_shape(pointer, connection, frame, now, built);
+    const Build build_here = [&] { return build(pointer); };
+    OrganChange change = set_shape(pointer, connection, frame, now, built ? built : build_here);
     if (note_sender(organs_.at(message.organ), Senders::kMeshes, connection, now)) {
       change = OrganChange::kSender;
     }
@@ -123,8 +124,8 @@ OrganChange OrganRegistry::set_shape(const OrganMeshConstPtr& pointer, const Con
   return change == OrganChange::kShape ? OrganChange::kFrame : change;
 }
 
-OrganChange OrganRegistry::apply(const OrganVerticesConstPtr& pointer, const Connection& connection,
-                                 ros::Time now) {
+OrganChange OrganRegistry::apply(const OrganVerticesConstPtr& pointer, ros::Time now,
+                                 const Connection& connection) {
   const OrganVertices& message = *pointer;
   if (message.organ.empty()) refuse("empty name", "organ vertices without a name in `organ`");
   check_name("organ", message.organ);

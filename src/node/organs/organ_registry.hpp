@@ -4,7 +4,6 @@
 #include <organ_collision/OrganVertices.h>
 #include <ros/time.h>
 
-#include <cstdint>
 #include <functional>
 #include <map>
 #include <set>
@@ -43,8 +42,8 @@ class OrganRegistry {
   TriangleMesh build(const OrganMeshConstPtr& message) const;
 
   /// These functions apply a message. They throw Rejection. The vertices become the organ's shape
-  /// without a copy: the message lives as long as that shape is used. `built` is called only if the
-  /// triangles are new. It must return what build(message) would return.
+  /// without a copy: the message lives as long as that shape is used. `built` is called in place of
+  /// build(message) if the triangles are new.
   ///
   /// A mesh may have other triangles under the topology number that the organ already has. If the
   /// mesh came over a connection that is new to this organ, for example from a restarted simulator,
@@ -53,16 +52,10 @@ class OrganRegistry {
   /// A sender has restarted if a shape comes over another connection than the last shape of the
   /// same organ and type of message, and that connection is closed. If that connection is still
   /// open, a warning says that the organ has two senders.
-  OrganChange apply(const OrganMeshConstPtr& message, const Connection& connection, ros::Time now,
-                    const Build& built);
-  OrganChange apply(const OrganMeshConstPtr& message, ros::Time now) {
-    return apply(message, {}, now, [&] { return build(message); });
-  }
-  OrganChange apply(const OrganVerticesConstPtr& message, const Connection& connection,
-                    ros::Time now);
-  OrganChange apply(const OrganVerticesConstPtr& message, ros::Time now) {
-    return apply(message, {}, now);
-  }
+  OrganChange apply(const OrganMeshConstPtr& message, ros::Time now,
+                    const Connection& connection = {}, const Build& built = {});
+  OrganChange apply(const OrganVerticesConstPtr& message, ros::Time now,
+                    const Connection& connection = {});
   /// Whether `apply` would call `built` for this message.
   bool is_new(const OrganMesh& message, const Connection& connection) const;
 

@@ -215,10 +215,11 @@ std::vector<ToolParameters> parse_tools(const ParameterGroup& all,
 
 ParameterTable table_of(NodeParameters& p) {
   ParameterTable t;
-  add_tools(t, p,
-            "list of tools, with the keys below. []: the node publishes no contacts, and answers "
-            "queries that give a motion");
-  add_picker(t, p.picker);
+  t.other(
+      names::kTools, "required",
+      [&p](const ParameterGroup& all) { p.tools = parse_tools(all, p.misspelt); },
+      "list of tools, with the keys below. []: the node publishes no contacts, and answers queries "
+      "that give a motion");
   t.number("rate", p.rate_hz, kRates,
            "[Hz] the node also evaluates at this rate. 0: only at each new shape, and at each pose "
            "that arrives as a message")
@@ -244,7 +245,6 @@ ParameterTable table_of(NodeParameters& p) {
        "[s] if the last shape of the organ came longer ago than this, the answer is STALE_MESH. 0: "
        "never")
       .live();
-  add_limits(t, p);
   t.number("max_batch", p.max_batch, {1, 1'000'000},
            "largest number of motions in one query_batch; larger batches are refused");
   t.number("max_batch_bytes", p.max_batch_bytes, kMessageBytes,
@@ -256,7 +256,6 @@ ParameterTable table_of(NodeParameters& p) {
   t.flag("publish_placement", p.publish_placement,
          "true: each answer on contacts tells on which side of the organ's surface the tool is")
       .live();
-  add_marker_rates(t, p.markers);
   t.number("markers_depth", p.markers.markers_depth, {0.0, 10.0, false},
            "[m] contacts of this depth or more have the last colour of the map")
       .live();
@@ -264,27 +263,18 @@ ParameterTable table_of(NodeParameters& p) {
            "largest number of threads that evaluate steps side by side, at most one for each pair "
            "of organ and tool; as many again share the motions of a batch. 0: one for each "
            "processor. The answers are the same with any number");
-  add_realtime(t, p.realtime, "the threads of the steps run");
+  add_common_rows(t, p, "the threads of the steps run");
   return t;
 }
 
-void add_tools(ParameterTable& t, OrganNodeParameters& p, const std::string& text) {
-  t.other(
-      names::kTools, "required",
-      [&p](const ParameterGroup& all) { p.tools = parse_tools(all, p.misspelt); }, text);
-}
-
-void add_picker(ParameterTable& t, PickerSettings& p) {
+void add_common_rows(ParameterTable& t, OrganNodeParameters& p, const std::string& threads) {
   std::string how = "how faces are picked";
   for (const PickerName& picker : kPickerNames) {
     how.append(". ").append(picker.name).append(": ").append(picker.about);
   }
-  t.choice("picker", p.kind, kPickerNames, how);
-  t.choice("gl", p.gl, kGlPlatformNames,
+  t.choice("picker", p.picker.kind, kPickerNames, how);
+  t.choice("gl", p.picker.gl, kGlPlatformNames,
            "where the OpenGL for picking comes from. auto: OSMesa where there is one, else EGL");
-}
-
-void add_limits(ParameterTable& t, OrganNodeParameters& p) {
   t.number(
       "max_ahead_sec", p.max_ahead_sec, kMaxAhead,
       "[s] shapes, poses and transforms whose stamps are further ahead of the node's clock are "
@@ -292,25 +282,20 @@ void add_limits(ParameterTable& t, OrganNodeParameters& p) {
   t.number("max_faces", p.max_faces, kMaxFaces, "larger organs are refused");
   t.number("diagnostic_period_sec", p.diagnostic_period_sec, {0.01, 3600.0},
            "[s] between messages on /diagnostics");
-}
-
-void add_marker_rates(ParameterTable& t, MarkerSettings& p) {
-  t.number("markers_rate", p.markers_rate_hz, kFrameRates,
+  t.number("markers_rate", p.markers.markers_rate_hz, kFrameRates,
            "[Hz] how often markers are published while somebody subscribes. 0: never")
       .live();
-  t.number("surface_rate", p.surface_rate_hz, kFrameRates,
+  t.number("surface_rate", p.markers.surface_rate_hz, kFrameRates,
            "[Hz] how often the surface of an organ that moves is published as a marker at most, "
            "large surfaces less often. 0: never")
       .live();
-}
-
-void add_realtime(ParameterTable& t, RealtimeParameters& p, const std::string& threads) {
   t.number(
-      kRealtimePriority, p.priority, {0, 99},
+      kRealtimePriority, p.realtime.priority, {0, 99},
       "1 to 99: " + threads +
           " under SCHED_FIFO with this priority, before ordinary programs. 0: ordinary scheduling");
-  t.flag("lock_memory", p.lock_memory, "true: all memory of the process stays in RAM");
-  t.flag("awake_cores", p.awake_cores, "true: no core of the machine sleeps while the node runs");
+  t.flag("lock_memory", p.realtime.lock_memory, "true: all memory of the process stays in RAM");
+  t.flag("awake_cores", p.realtime.awake_cores,
+         "true: no core of the machine sleeps while the node runs");
 }
 
 }  // namespace organ_collision

@@ -86,13 +86,9 @@ struct NodeParameters : OrganNodeParameters {
 
 ParameterTable table_of(NodeParameters& parameters);
 
-/// These functions add the rows that all nodes with organs have. `text`: what the row of `tools`
-/// says, which differs between the nodes.
-void add_tools(ParameterTable& table, OrganNodeParameters& parameters, const std::string& text);
-void add_picker(ParameterTable& table, PickerSettings& picker);
-void add_limits(ParameterTable& table, OrganNodeParameters& parameters);
-void add_marker_rates(ParameterTable& table, MarkerSettings& markers);
-/// `threads`: the threads that get the priority, with a verb: "the threads of the steps run".
-void add_realtime(ParameterTable& table, RealtimeParameters& realtime, const std::string& threads);
+/// Adds the rows that all nodes with organs have. `threads`: the threads that get the priority,
+/// with a verb: "the threads of the steps run".
+void add_common_rows(ParameterTable& table, OrganNodeParameters& parameters,
+                     const std::string& threads);
 
 }  // namespace organ_collision

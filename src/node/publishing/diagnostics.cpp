@@ -36,18 +36,6 @@ void show_organ(const DeformableOrgan& organ, const std::string& last_refusal, S
   }
 }
 
-/// Shows how many durations there were, their median, 99th percentile and maximum. `count` and
-/// `time` are the names that are shown, for example "queries" and "query time".
-void show_times(const std::string& count, const std::string& time,
-                const DurationStatistics& statistics, Status& status) {
-  const DurationStatistics::Summary times = statistics.summary();
-  constexpr double kMicroseconds = 1e6;
-  status.add(count, times.count);
-  status.add(time + ", median [us]", times.median * kMicroseconds);
-  status.add(time + ", 99th percentile [us]", times.percentile_99 * kMicroseconds);
-  status.add(time + ", worst [us]", times.worst * kMicroseconds);
-}
-
 }  // namespace
 
 double EventRate::take(Time now) {
@@ -75,6 +63,16 @@ DurationStatistics::Summary DurationStatistics::summary() const {
     return *place;
   };
   return {count, percentile(50), percentile(99), *std::max_element(times.begin(), times.end())};
+}
+
+void show_times(const std::string& count, const std::string& time,
+                const DurationStatistics& statistics, Status& status) {
+  const DurationStatistics::Summary times = statistics.summary();
+  constexpr double kMicroseconds = 1e6;
+  status.add(count, times.count);
+  status.add(time + ", median [us]", times.median * kMicroseconds);
+  status.add(time + ", 99th percentile [us]", times.percentile_99 * kMicroseconds);
+  status.add(time + ", worst [us]", times.worst * kMicroseconds);
 }
 
 void add_diagnostics(diagnostic_updater::Updater& updater, const ReceivedParts& parts) {
@@ -125,7 +123,6 @@ void show_queries(const std::vector<std::string>& misspelt, const CollisionPipel
   status.add("faces clipped by OpenGL", steps.picked.drawn);
   status.add("faces decided without OpenGL", steps.picked.undrawn);
   status.add("motion samples cut", steps.samples_cut);
-  status.add("motion samples cut, farthest from the swept way [m]", steps.deviation_cut);
   status.add("transforms after their step", pipeline.inbox.transforms.late());
   status.add("poses merged into later ones", steps.poses_merged);
   status.add("ticks merged into later ones", steps.ticks_merged);

@@ -87,6 +87,11 @@ struct ReceivedParts {
 
 using Status = diagnostic_updater::DiagnosticStatusWrapper;
 
+/// Shows how many durations there were, their median, 99th percentile and maximum. `count` and
+/// `time` are the names that are shown, for example "queries" and "query time".
+void show_times(const std::string& count, const std::string& time,
+                const DurationStatistics& statistics, Status& status);
+
 /// Adds the tasks "tools", "organs" and "messages".
 void add_diagnostics(diagnostic_updater::Updater& updater, const ReceivedParts& parts);
 

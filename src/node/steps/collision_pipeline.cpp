@@ -2,6 +2,8 @@
 
 #include <ros/console.h>
 
+#include <algorithm>
+
 namespace organ_collision {
 namespace {
 
@@ -20,7 +22,11 @@ void Inbox::subscribe(const ros::NodeHandle& node, const ros::NodeHandle& privat
 
 bool Inbox::watch_clock() {
   const ros::Time now = ros::Time::now();
-  if (clock_.has_jumped_back(now)) {
+  latest_ = std::max(latest_, now);
+  if (now.toSec() < latest_.toSec() - kClockTolerance) {
+    ROS_WARN("the clock jumped back from %f to %f s: all history is forgotten", latest_.toSec(),
+             now.toSec());
+    latest_ = now;
     jumped_ = now.toSec();
     may_forget_ = kMostForgotten;
   } else if (transforms.has_stepped_back() && may_forget_ > 0 && now.toSec() - jumped_ < kArrival) {

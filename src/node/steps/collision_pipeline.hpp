@@ -40,9 +40,9 @@ class Inbox {
 
  private:
   double max_ahead_sec_;
+  ros::Time latest_;     ///< the latest time since the clock last jumped back
   double jumped_ = 0.0;  ///< [s] the ROS time to which the clock last jumped back
   int may_forget_ = 0;   ///< how often late transforms may still make the node forget history
-  ClockWatch clock_;
 };
 
 /// Turns messages about organs and motion into steps with their answers

@@ -89,8 +89,7 @@ void set_memory(ContactArray& answer, const ContactArray* last) {
 }
 
 void count_failure(FailureLog& log, std::uint8_t status, const std::string& message) {
-  if (status == ContactArray::OK) return;
-  log.add(reason_of(status), message, std::chrono::steady_clock::now());
+  if (status != ContactArray::OK) log.add(reason_of(status), message);
 }
 
 std::string stale_fault(const std::string& organ, const OrganShape& shape, ros::Time now,

@@ -118,12 +118,6 @@ void StepScheduler::evaluate(SteadyTime now) {
   const LoadWatch::Time begin = LoadWatch::Time::clock::now();
   is_behind_ = load_.is_behind(begin);
   now_ = now;
-  evaluate_all();
-  load_.add_round(begin, LoadWatch::Time::clock::now(),
-                  counts_.poses_merged + counts_.ticks_merged + counts_.superseded);
-}
-
-void StepScheduler::evaluate_all() {
   due_.clear();  // If an exception ended the last round, its steps are still there.
   do {
     for (auto& [key, pair] : history_) {
@@ -141,11 +135,13 @@ void StepScheduler::evaluate_all() {
     }
   }
   evaluate_due();
-  // In a replay, `now_` may go back.
-  if (now_ < next_lookout_ && next_lookout_ - now_ <= kLookout) return;
-  next_lookout_ = now_ + kLookout;
-  plan_long_steps();
-  evaluate_due();
+  if (now_ >= next_lookout_ || next_lookout_ - now_ > kLookout) {  // In a replay, it may go back.
+    next_lookout_ = now_ + kLookout;
+    plan_long_steps();
+    evaluate_due();
+  }
+  load_.add_round(begin, LoadWatch::Time::clock::now(),
+                  counts_.poses_merged + counts_.ticks_merged + counts_.superseded);
 }
 
 /// Evaluates and publishes the steps that are due. Returns whether there were any.
@@ -377,9 +373,7 @@ void StepScheduler::answer(ToolStep& step, ContactQuery& query) const {
 void StepScheduler::deliver(ToolStep& step) {
   OrganToolPair& pair = *step.pair;
   if (step.is_of_shape) ++counts_.answered;
-  const SampledPath& sampled = step.question.sampled;
-  counts_.samples_cut += sampled.samples_cut;
-  counts_.deviation_cut = std::max(counts_.deviation_cut, sampled.deviation_cut);
+  counts_.samples_cut += step.question.sampled.samples_cut;
   counts_.picked.drawn += step.picked.drawn;
   counts_.picked.undrawn += step.picked.undrawn;
   if (step.answer->status == ContactArray::OK) {

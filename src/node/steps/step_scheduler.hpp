@@ -22,8 +22,6 @@ struct StepCounts {
   std::uint64_t poses_merged = 0;  ///< poses that share a step with an earlier pose
   std::uint64_t ticks_merged = 0;  ///< ticks that share a step with an earlier tick
   std::uint64_t samples_cut = 0;   ///< samples of motion, dropped because of motion_samples_max
-  /// [m] The largest distance of a dropped sample from the path that was swept instead.
-  double deviation_cut = 0.0;
   PickCounts picked;  ///< the faces that the steps looked at one by one
 };
 
@@ -152,7 +150,6 @@ class StepScheduler {
   void plan_failure(ToolStep step, ros::Time stamp, std::uint8_t status,
                     const std::string& message);
 
-  void evaluate_all();
   bool evaluate_due();
   void answer(ToolStep& step, ContactQuery& query) const;
   void deliver(ToolStep& step);

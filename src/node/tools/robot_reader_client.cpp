@@ -6,7 +6,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -14,15 +13,10 @@
 #include <filesystem>
 #include <memory>
 #include <system_error>
-#include <thread>
 #include <utility>
-
-#include "geometry/concatenate.hpp"
 
 namespace organ_collision {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 [[noreturn]] void fail(int error, const std::string& what) {
   throw std::system_error(error, std::generic_category(), what);
@@ -36,10 +30,6 @@ MemoryFile open_in_memory() {
   const int descriptor = memfd_create("robot", MFD_CLOEXEC);
   if (descriptor < 0) fail(errno, "memfd_create");
   return {fdopen(descriptor, "w+b"), std::fclose};
-}
-
-std::size_t size_of(std::FILE* file) {
-  return std::filesystem::file_size("/proc/self/fd/" + std::to_string(fileno(file)));
 }
 
 /// Starts a process with these standard streams. The process neither blocks nor ignores a signal.
@@ -70,30 +60,6 @@ pid_t start_process(const std::vector<std::string>& command, std::FILE* input, s
   return process;
 }
 
-/// Waits until the process ends, and kills it if it exceeds a limit. Returns why the process
-/// failed, or an empty text. If other code of this program has already taken the exit status (it
-/// ignores SIGCHLD or waits for all children), the process counts as successful.
-std::string wait_for_end(pid_t process, std::FILE* output, const ProcessLimits& limits) {
-  const Clock::time_point end = Clock::now() + limits.time;
-  const auto kill_because = [process](const std::string& why) {
-    kill(process, SIGKILL);
-    waitpid(process, nullptr, 0);
-    return why;
-  };
-  int status = 0;
-  while (waitpid(process, &status, WNOHANG) == 0) {
-    if (size_of(output) > limits.output_bytes) {
-      return kill_because("wrote more than " + std::to_string(limits.output_bytes) + " bytes");
-    }
-    if (Clock::now() > end) {
-      return kill_because(
-          concatenate("took more than ", std::chrono::duration<double>(limits.time).count(), " s"));
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return failure_of(status);
-}
-
 constexpr char kProgram[] = "robot_reader";
 
 /// The path of robot_reader. It is in the folder organ_collision beside this library. In Debian
@@ -121,15 +87,19 @@ std::string failure_of(int status) {
   return code == 0 ? "" : "ended with exit code " + std::to_string(code);
 }
 
-ProcessResult run_process(const std::vector<std::string>& command, const std::string& input,
-                          const ProcessLimits& limits) {
+ProcessResult run_process(const std::vector<std::string>& command, const std::string& input) {
   const MemoryFile given = open_in_memory(), written = open_in_memory();
   std::fwrite(input.data(), 1, input.size(), given.get());
   std::rewind(given.get());
   const pid_t process = start_process(command, given.get(), written.get());
+  // If other code of this program takes the exit status (it ignores SIGCHLD or waits for all
+  // children), the process counts as successful.
+  int status = 0;
+  while (waitpid(process, &status, 0) < 0 && errno == EINTR) continue;
   ProcessResult result;
-  result.failure = wait_for_end(process, written.get(), limits);
-  result.output.resize(std::min(size_of(written.get()), limits.output_bytes));
+  result.failure = failure_of(status);
+  result.output.resize(
+      std::filesystem::file_size("/proc/self/fd/" + std::to_string(fileno(written.get()))));
   std::rewind(written.get());
   result.output.resize(std::fread(result.output.data(), 1, result.output.size(), written.get()));
   return result;
@@ -141,7 +111,7 @@ std::vector<RobotLink> read_robot(const std::string& urdf, const std::string& in
   command.insert(command.end(), links.begin(), links.end());
   ProcessResult result;
   try {
-    result = run_process(command, input, {reader_limits::kTime, reader_limits::kReplyBytes});
+    result = run_process(command, input);
   } catch (const std::system_error& error) {
     throw ToolError("cannot run " + command[0] + ", which reads it: " + error.code().message());
   }

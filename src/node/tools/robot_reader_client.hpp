@@ -1,7 +1,5 @@
 #pragma once
 
-#include <chrono>
-#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -9,19 +7,14 @@
 
 namespace organ_collision {
 
-struct ProcessLimits {
-  std::chrono::milliseconds time;  ///< real time after which the process is killed
-  std::size_t output_bytes;        ///< most output; a process that writes more is soon killed
-};
-
 /// Why a process failed that ended with this status of waitpid(): "ended with exit code 3", or "was
 /// ended by signal 11 (Segmentation fault)". Empty if its exit code is 0.
 std::string failure_of(int status);
 
 /// How a process ended.
 struct ProcessResult {
-  std::string output;   ///< what the process wrote on standard output, up to the limit
-  std::string failure;  ///< as of failure_of(), or the limit that was exceeded
+  std::string output;   ///< what the process wrote on standard output
+  std::string failure;  ///< as of failure_of()
 };
 
 /// Runs a program and waits for its end. `command`: its path and its arguments. `input`: what it
@@ -30,14 +23,13 @@ struct ProcessResult {
 /// Uses posix_spawn. Boost.Process would fork: in a nodelet manager, other threads may hold locks
 /// at that moment, and fork handlers of other libraries would run. Works even if other threads
 /// change signal handlers or wait for all children.
-ProcessResult run_process(const std::vector<std::string>& command, const std::string& input,
-                          const ProcessLimits& limits);
+ProcessResult run_process(const std::vector<std::string>& command, const std::string& input);
 
 /// Reads links of a robot, in the order of `links`, from its URDF and the mesh files that the URDF
 /// names. A separate program, robot_reader, reads these files, because the libraries that parse
 /// them crash or hang on broken ones. `urdf`: an absolute path, a URL (package://, file://), or "-"
 /// if `input` is the text of the URDF. Throws ToolError, which names the file, if a link does not
-/// exist, if a shape or mesh cannot be read, or if the program fails or exceeds reader_limits.
+/// exist, if a shape or mesh cannot be read, or if the program fails or exceeds its own limits.
 std::vector<RobotLink> read_robot(const std::string& urdf, const std::string& input,
                                   const std::vector<std::string>& links);
 

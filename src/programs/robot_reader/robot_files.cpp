@@ -4,6 +4,7 @@
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/time.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <boost/algorithm/string/predicate.hpp>
@@ -23,6 +24,21 @@ namespace {
 
 using Eigen::Affine3d;
 using Eigen::Vector3d;
+
+/// [bytes] The largest address space. It holds a file, its parsed form, and the reply to the node.
+constexpr rlim_t kMemoryBytes = rlim_t{2} << 30;
+/// [bytes] The longest reply to the node.
+constexpr rlim_t kReplyBytes = 500'000'000;
+/// [s] The most processor time. For files of the largest legal size, this program needs a few
+/// seconds.
+constexpr rlim_t kProcessorTime = 10;
+/// [s] The most real time. On a busy machine, it is longer than processor time.
+constexpr unsigned kRealTime = 30;
+/// The most processor time for the URDF, and for each mesh file, is kParsingTime, and a millisecond
+/// more for every kBytesPerMillisecond bytes. Some broken files keep a parser busy for ever. An OBJ
+/// file is read with 30 MB a second.
+constexpr std::chrono::milliseconds kParsingTime{200};
+constexpr std::size_t kBytesPerMillisecond = 2000;
 
 /// Lowers a limit of the process. A limit that is already lower stays as it is.
 template <typename Resource>
@@ -77,17 +93,19 @@ std::string path_of_url(const std::string& url) {
 }  // namespace
 
 void limit_process() {
-  limit(RLIMIT_CPU, reader_limits::kProcessorTime.count());
+  alarm(kRealTime);
+  limit(RLIMIT_FSIZE, kReplyBytes);
+  limit(RLIMIT_CPU, kProcessorTime);
 #ifndef ORGAN_COLLISION_SANITIZED  // Sanitizers reserve terabytes of address space.
-  limit(RLIMIT_AS, reader_limits::kMemoryBytes);
+  limit(RLIMIT_AS, kMemoryBytes);
 #endif
   // RLIMIT_CORE is not enough: it has no effect where the kernel pipes core dumps to a program.
   prctl(PR_SET_DUMPABLE, 0);
 }
 
 ScopedTimeLimit::ScopedTimeLimit(std::size_t bytes) {
-  const std::chrono::milliseconds more(bytes / reader_limits::kBytesPerMillisecond);
-  const std::chrono::milliseconds time = reader_limits::kParsingTime + more;
+  const std::chrono::milliseconds more(bytes / kBytesPerMillisecond);
+  const std::chrono::milliseconds time = kParsingTime + more;
   itimerval timer{};
   timer.it_value.tv_sec = time.count() / 1000;
   timer.it_value.tv_usec = time.count() % 1000 * 1000;

@@ -8,7 +8,8 @@
 
 namespace organ_collision {
 
-/// Applies reader_limits to this process, and stops it from dumping core. Throws std::system_error.
+/// Limits the memory, the time and the reply of this process, and stops it from dumping core. A
+/// signal ends it at a limit. Throws std::system_error.
 void limit_process();
 
 /// While an object of this class lives, SIGPROF ends this process if it works on a file of so many

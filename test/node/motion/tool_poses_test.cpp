@@ -243,7 +243,6 @@ TEST_F(ToolPosesTest, OfVeryManyPosesThoseReadAreSpreadEvenly) {
   const SampledPath sampled = path(hook_, 1.0, 4.0, {1.0, 4});
   ASSERT_EQ(sampled.path.size(), 5u);
   EXPECT_EQ(sampled.samples_cut, 2999u - 3u);
-  EXPECT_TRUE(std::isinf(sampled.deviation_cut)) << "nobody knows";
   for (int leg = 1; leg <= 4; ++leg) {
     EXPECT_LT(sampled.path[leg].fraction - sampled.path[leg - 1].fraction, 0.5);
   }

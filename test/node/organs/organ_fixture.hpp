@@ -82,11 +82,11 @@ class OrganRegistryTest : public testing::Test {
 
   OrganChange apply(const OrganMesh& message, ros::Time now, const Connection& connection = {}) {
     const auto pointer = boost::make_shared<const OrganMesh>(message);
-    return store_.apply(pointer, connection, now, [&] { return store_.build(pointer); });
+    return store_.apply(pointer, now, connection);
   }
   OrganChange apply(const OrganVertices& message, ros::Time now,
                     const Connection& connection = {}) {
-    return store_.apply(boost::make_shared<const OrganVertices>(message), connection, now);
+    return store_.apply(boost::make_shared<const OrganVertices>(message), now, connection);
   }
 
   /// Expects that `message` is refused with this status and reason, and that the liver stays as it

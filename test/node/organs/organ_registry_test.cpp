@@ -137,7 +137,7 @@ TEST_F(OrganRegistryTest, MeshesThatCannotBeMadeLeaveTheGoodOne) {
   apply(mesh(), ros::Time(7));
   const auto message = boost::make_shared<const OrganMesh>(mesh("liver", 2));
   try {
-    store_.apply(message, {}, ros::Time(8), []() -> TriangleMesh { throw std::bad_alloc(); });
+    store_.apply(message, ros::Time(8), {}, []() -> TriangleMesh { throw std::bad_alloc(); });
     ADD_FAILURE() << "accepted";
   } catch (const Rejection& rejection) {
     EXPECT_EQ(rejection.status(), ContactArray::INVALID_REQUEST);

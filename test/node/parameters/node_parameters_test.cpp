@@ -64,20 +64,19 @@ TEST(NodeParameters, RefusalsNameTheValueAndWhatIsLegal) {
     const char* legal;
   };
   const std::vector<Row> rows = {
-      {"motion_sample_sec", 0.0, "'0'; must be a number, more than 0"},
+      {"motion_sample_sec", 0.0, "'0'; must be a number, above 0"},
       {"motion_sample_sec", "2.5",
-       "the text '2.5'; must be a number, more than 0: write it without quotes"},
+       "the text '2.5'; must be a number, above 0: write it without quotes"},
       {"motion_sample_sec", "5e-3",
-       "the text '5e-3'; must be a number, more than 0: write it without quotes"},
-      {"motion_sample_sec", true, "is true; must be a number, more than 0"},
-      {"tf_timeout_sec", 60.0000001, "'60.0000001'; must be a number, at least 0, at most 60"},
-      {"markers_depth", kUnlimited, "'inf'; must be a number, more than 0"},
-      {"threads", 1025, "'1025'; must be a whole number, at least 0, at most 1024"},
-      {"threads", 2.0,
-       "the number '2'; must be a whole number, at least 0, at most 1024: write it without"},
-      {"mesh_timeout_sec", 1e300, "at most 1000000"},
-      {"organ_motion", 1, "the number '1'; must be true or false: write true or false without"},
-      {"rate", 1e-10, "'1e-10'; must be 0 or at least 0.001"},
+       "the text '5e-3'; must be a number, above 0: write it without quotes"},
+      {"motion_sample_sec", true, "is true; must be a number, above 0"},
+      {"tf_timeout_sec", 60.0000001, "'60.0000001'; must be a number, 0 to 60"},
+      {"markers_depth", kUnlimited, "'inf'; must be a number, above 0"},
+      {"threads", 1025, "'1025'; must be a whole number, 0 to 1024"},
+      {"threads", 2.0, "the number '2'; must be a whole number, 0 to 1024"},
+      {"mesh_timeout_sec", 1e300, "0 to 1000000"},
+      {"organ_motion", 1, "the number '1'; must be true or false"},
+      {"rate", 1e-10, "'1e-10'; must be a number, 0, or 0.001 to 10000"},
       {"picker", 1, "the number '1'; must be one of feedback, select, cpu"},
       {"tools", list_of({"hook"}), "'hook'; must be a group of name"}};
   for (const Row& row : rows) {
@@ -111,7 +110,7 @@ TEST(NodeParameters, MisspeltKeysOfToolsAreReported) {
   XmlRpcValue tool = shaft(), wrong;
   for (const auto& [name, value] : tool) wrong[name == "radius" ? "raduis" : name] = value;
   expect_words(tool_refusal(wrong),
-               {"~tools[0]/radius is missing; must be a number, more than 0 "
+               {"~tools[0]/radius is missing; must be a number, above 0 "
                 "(~tools[0]/raduis is no parameter; nearest is 'radius', legal "
                 "are name, trocar_frame"});
 }
@@ -127,8 +126,8 @@ struct ToolRefusal {
 TEST(ToolParameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
   const XmlRpcValue too_long = std::string(257, 'x');
   const std::vector<ToolRefusal> refusals = {
-      {shaft, "radius", 0.0, {"'0'", "more than 0"}},
-      {shaft, "radius", kUnlimited, {"inf", "more than 0"}},
+      {shaft, "radius", 0.0, {"'0'", "above 0"}},
+      {shaft, "radius", kUnlimited, {"inf", "above 0"}},
       {shaft, "name", "", {"not empty"}},
       {shaft, "name", 7, {"the number '7'; must be a text that is not empty: write it in quotes"}},
       {shaft, "name", true, {"true; must be a text that is not empty: write it in quotes"}},
@@ -153,7 +152,7 @@ TEST(ToolParameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
       {shaft, "margin", std::nan(""), {"nan", "at least 0"}},
       {shaft, "margin", kUnlimited, {"inf", "at least 0"}},
       {shaft, "margin", "wide", {"wide", "number"}},
-      {shaft, "max_near", -1, {"-1", "at least 0"}},
+      {shaft, "max_near", -1, {"-1", "0 to 1000000"}},
       {shaft, "max_near", 0.5, {"0.5", "whole"}},
       {shaft, "max_near", 7, {"'7'", "margin"}},
       {shaft, "freedom", "fixed", {"'fixed'", "trocar, free"}},

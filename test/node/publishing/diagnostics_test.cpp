@@ -174,7 +174,6 @@ TEST_F(DiagnosticsTest, WhatStepsAndServicesCount) {
                            {"query time, median [us]", "2000"},
                            {"query time, worst [us]", "2000"},
                            {"motion samples cut", "900"},
-                           {"motion samples cut, farthest from the swept way [m]", "0"},
                            {"transforms after their step", "1"},
                            {"poses merged into later ones", "1"},
                            {"shapes due", "6"},
