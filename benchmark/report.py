@@ -36,7 +36,7 @@ LABEL_GAP = 0.055     # the least distance of two labels, as a share of the heig
 
 
 class Results:
-    """Of each (part, engine, faces, shuffled), see cases/registration.hpp: its fastest repetition, with its counters, and
+    """Of each (part, engine, faces, shuffled), see case_name() in cases/cases.hpp: its fastest repetition, with its counters, and
     the time of this in microseconds. What else runs on a machine only makes repetitions slower."""
 
     def __init__(self, path):

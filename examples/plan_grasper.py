@@ -12,6 +12,7 @@ from geometry_msgs.msg import Point, Quaternion, Transform, TransformStamped, Ve
 import grasper_kinematics as grasper
 from organ_collision import Queries
 from organ_collision.msg import Clearance, ContactArray
+from PyKDL import Frame, Rotation, Vector
 import rospy
 import rrt_connect
 from sensor_msgs.msg import JointState
@@ -20,8 +21,8 @@ import tf2_ros
 from visualization_msgs.msg import Marker, MarkerArray
 
 # In the liver's frame: the trocar is below the liver and in front of it. Its z axis points at the liver's middle.
-TROCAR = (-0.0413637326, -0.9032105840, -0.4177331430, 0.0894354727), (0.02, -0.12, 0.10)
-START = (0.0, -0.01, 0.06)         # [m] of the tip, in the liver's frame: in front of the liver
+TROCAR = Frame(Rotation.Quaternion(-0.0413637326, -0.9032105840, -0.4177331430, 0.0894354727), Vector(0.02, -0.12, 0.10))
+START = Vector(0.0, -0.01, 0.06)   # [m] of the tip, in the liver's frame: in front of the liver
 TARGET = [0.004, -0.004, -0.017]   # [m] in the hollow of its underside, some millimetres from the surface
 JAW = 0.1                          # [rad] the jaws stay nearly closed
 # [m per rad, or 1] About how far the tip goes if a joint moves. The planner measures distances in these metres.
@@ -49,7 +50,7 @@ def straight(a, b, piece):
 
 def links(place):
     """Position and quaternion of each link of the grasper, in the liver's frame."""
-    return [(*position, *rotation) for rotation, position in grasper.link_poses(TROCAR, unscaled(place))]
+    return [(*pose.p, *pose.M.GetQuaternion()) for pose in grasper.link_poses(TROCAR, unscaled(place))]
 
 
 class Robot:
@@ -142,10 +143,10 @@ def main():
     markers = rospy.Publisher('/organ_collision/markers', MarkerArray, queue_size=1, latch=True)
     trocar = tf2_ros.StaticTransformBroadcaster()
     trocar.sendTransform(TransformStamped(Header(0, rospy.Time.now(), 'liver'), 'grasper_trocar',
-                                          Transform(Vector3(*TROCAR[1]), Quaternion(*TROCAR[0]))))
+                                          Transform(Vector3(*TROCAR.p), Quaternion(*TROCAR.M.GetQuaternion()))))
     start = scaled(grasper.joints_for(TROCAR, START, 0.0, 0.0, JAW))
     robot = Robot(start)
-    target = rospy.get_param('~target', TARGET)
+    target = Vector(*rospy.get_param('~target', TARGET))
     path, distance = plan(Tissue(), start, target, random.Random(rospy.get_param('~seed', 1)))
     if distance is None:
         raise RuntimeError('finer motions touch the tissue')

@@ -14,6 +14,7 @@ Usage: view.py [--fixed-frame FRAME] [--view YAW,PITCH] [--save FILE | --picture
 """
 
 import argparse
+import itertools
 import math
 import os
 import signal
@@ -25,6 +26,7 @@ import threading
 import time
 
 import numpy
+from PyKDL import Frame, Rotation, Vector
 import roslib.packages
 import rospy
 from std_msgs.msg import Bool, String
@@ -106,14 +108,6 @@ def text_at(array, at):
     return array[begin:end].decode(), end
 
 
-def rotation(q):
-    x, y, z, w = q.x, q.y, q.z, q.w
-    return numpy.array([
-        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
-
-
 def box_in(fixed_frame, frame, corners):
     """The lowest and highest corner of the organs, in the fixed frame."""
     low, high = corners
@@ -125,8 +119,9 @@ def box_in(fixed_frame, frame, corners):
         found = transforms.lookup_transform(fixed_frame, frame, rospy.Time(0), rospy.Duration(PATIENCE)).transform
     finally:
         listener.unregister()
-    moved = [rotation(found.rotation) @ numpy.array([(low, high)[i >> axis & 1][axis] for axis in range(3)])
-             + (found.translation.x, found.translation.y, found.translation.z) for i in range(8)]
+    q, p = found.rotation, found.translation
+    pose = Frame(Rotation.Quaternion(q.x, q.y, q.z, q.w), Vector(p.x, p.y, p.z))
+    moved = [list(pose * Vector(*corner)) for corner in itertools.product(*zip(low, high))]
     return numpy.min(moved, axis=0), numpy.max(moved, axis=0)
 
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "cases.hpp"
+#include "query/make_request.hpp"
 #include "query/moving_part.hpp"
 
 namespace organ_collision::bench {
@@ -42,13 +43,8 @@ void ContactMeasurement::move_organ(const SceneStep& step) {
 CollisionRequest ContactMeasurement::request(const SceneStep& step, QueryMode mode,
                                              bool organ_moves) const {
   const VolumeQuery& tool = step.swept_query.query;
-  CollisionRequest request;
-  request.organ = &organ_;
-  if (organ_moves && mode == QueryMode::kSwept) request.organ_before = &before_;
-  request.path = {{0.0, tool.motion.start}, {1.0, tool.motion.end}};
-  request.radius = tool.radius;
-  request.mode = mode;
-  return request;
+  return make_request({&organ_, organ_moves ? &before_ : nullptr}, {tool.radius}, {mode},
+                      {{0.0, tool.motion.start}, {1.0, tool.motion.end}});
 }
 
 void ContactMeasurement::check(std::size_t steps, bool organ_moves) {

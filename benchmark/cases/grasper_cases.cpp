@@ -5,6 +5,7 @@
 #include "benchmark/scenes/scene.hpp"
 #include "cases.hpp"
 #include "geometry/distance/first_touch.hpp"
+#include "query/make_request.hpp"
 
 namespace organ_collision::bench {
 namespace {
@@ -31,13 +32,7 @@ GrasperMeasurement::GrasperMeasurement()
 }
 
 CollisionRequest GrasperMeasurement::request(const ToolPath& path, QueryMode mode) const {
-  CollisionRequest request;
-  request.organ = &organ_;
-  request.path = path;
-  request.radius = motions_.radius;
-  request.links = &motions_.links;
-  request.mode = mode;
-  return request;
+  return make_request({&organ_}, {motions_.radius, &motions_.links}, {mode}, path);
 }
 
 /// Tests every face against every part.

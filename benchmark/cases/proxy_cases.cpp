@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "cases.hpp"
+#include "query/make_request.hpp"
 
 namespace organ_collision::bench {
 
@@ -28,13 +29,9 @@ double ProxyMeasurement::move_organ() {
   return watch.lap();
 }
 
-CollisionRequest ProxyMeasurement::request(ToolPath path) const {
-  CollisionRequest request;
-  request.organ = shapes_[0].get();
-  request.path = std::move(path);
-  request.radius = tool_.radius;
-  request.links = &tool_.links;
-  return request;
+CollisionRequest ProxyMeasurement::request(ToolPath path, QueryMode mode) const {
+  return make_request({shapes_[0].get(), shapes_[1].get()}, {tool_.radius, &tool_.links}, {mode},
+                      std::move(path));
 }
 
 ProxyMeasurement::Tick ProxyMeasurement::follow() {
@@ -50,9 +47,8 @@ ProxyMeasurement::Tick ProxyMeasurement::penalty() {
   const double update = move_organ();
   const ToolPose& from = lap_[tick_ % kLap];
   const ToolPose& to = lap_[++tick_ % kLap];
-  CollisionRequest swept = request({{0.0, from.axis, from.links}, {1.0, to.axis, to.links}});
-  swept.mode = QueryMode::kSwept;
-  if (task_.is_moving) swept.organ_before = shapes_[1].get();
+  const CollisionRequest swept =
+      request({{0.0, from.axis, from.links}, {1.0, to.axis, to.links}}, QueryMode::kSwept);
   Stopwatch watch;
   query_.evaluate(swept, result_);
   return {update, watch.lap()};
@@ -62,7 +58,7 @@ void ProxyMeasurement::check() {
   for (std::size_t i = 0; i < kLap; ++i) {
     move_organ();
     const ProxyAnswer& answer = proxy_.follow(lap_[tick_++ % kLap], organs());
-    query_.evaluate(request(resting_path(answer.proxy)), result_);
+    query_.evaluate(request(resting_path(answer.proxy), QueryMode::kStatic), result_);
     summary_.errors.wrong += !result_.contacts.empty() && answer.state != ProxyStatus::kSqueezed;
     summary_.hits += static_cast<double>(answer.contacts.size()) / kLap;
     held_ += (answer.state != ProxyStatus::kFree) / static_cast<double>(kLap);

@@ -46,7 +46,7 @@ class ProxyMeasurement {
   double move_organ();
   void check();
   std::vector<ProxyOrgan> organs() const { return {{"organ", shapes_[0], &topology_}}; }
-  CollisionRequest request(ToolPath path) const;
+  CollisionRequest request(ToolPath path, QueryMode mode) const;
 
   ProxyTask task_;
   ProxyTool tool_;

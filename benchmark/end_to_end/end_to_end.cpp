@@ -9,6 +9,7 @@
 #include <ros/names.h>
 #include <ros/node_handle.h>
 #include <ros/ros.h>
+#include <tf2_eigen/tf2_eigen.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 
@@ -88,27 +89,16 @@ constexpr char kOrgan[] = "organ";
 
 geometry_msgs::TransformStamped pose(const std::string& frame, const Eigen::Vector3d& point,
                                      ros::Time stamp) {
-  geometry_msgs::TransformStamped transform;
+  geometry_msgs::TransformStamped transform =
+      tf2::eigenToTransform(Eigen::Isometry3d(Eigen::Translation3d(point)));
   transform.header.frame_id = kOrgan;
   transform.header.stamp = stamp;
   transform.child_frame_id = frame;
-  transform.transform.translation.x = point.x();
-  transform.transform.translation.y = point.y();
-  transform.transform.translation.z = point.z();
-  transform.transform.rotation.w = 1.0;
   return transform;
 }
 
 std::string tool_frame(std::size_t tool, const char* end) {
   return "tool" + std::to_string(tool) + "_" + end;
-}
-
-geometry_msgs::Point point_message(const Eigen::Vector3d& point) {
-  geometry_msgs::Point message;
-  message.x = point.x();
-  message.y = point.y();
-  message.z = point.z();
-  return message;
 }
 
 }  // namespace
@@ -203,8 +193,8 @@ LatencyReport Simulator::ask(double seconds) {
   const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(seconds);
   while (ros::ok() && ros::SteadyTime::now() < end) {
     const ShaftAxis& axis = tools_[report.sent++ % tools_.size()].end;
-    query.request.motion.trocar = point_message(axis.trocar);
-    query.request.motion.tip = point_message(axis.tip);
+    query.request.motion.trocar = tf2::toMsg(axis.trocar);
+    query.request.motion.tip = tf2::toMsg(axis.tip);
     const ros::SteadyTime start = ros::SteadyTime::now();
     const bool answered = client.call(query);
     report.latencies.add((ros::SteadyTime::now() - start).toSec());

@@ -6,6 +6,7 @@
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 #include <ros/ros.h>
+#include <tf2_eigen/tf2_eigen.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
 #include <boost/make_shared.hpp>
@@ -81,15 +82,11 @@ Hand::Hand(std::size_t faces)
 }
 
 void Hand::start() {
-  geometry_msgs::TransformStamped trocar;
+  geometry_msgs::TransformStamped trocar =
+      tf2::eigenToTransform(Eigen::Isometry3d(Eigen::Translation3d(lap_.front().axis.trocar)));
   trocar.header.frame_id = kOrgan;
   trocar.header.stamp = ros::Time::now();
   trocar.child_frame_id = "tool0_trocar";
-  const Eigen::Vector3d& place = lap_.front().axis.trocar;
-  trocar.transform.translation.x = place.x();
-  trocar.transform.translation.y = place.y();
-  trocar.transform.translation.z = place.z();
-  trocar.transform.rotation.w = 1.0;
   static_transforms_.sendTransform(trocar);
 
   OrganMesh mesh;
@@ -138,10 +135,7 @@ void Hand::send_pose(ros::Time stamp) {
   const auto pose = boost::make_shared<geometry_msgs::PoseStamped>();
   pose->header.frame_id = kOrgan;
   pose->header.stamp = stamp;
-  const Eigen::Vector3d& tip = lap_[tick_ % kLap].axis.tip;
-  pose->pose.position.x = tip.x();
-  pose->pose.position.y = tip.y();
-  pose->pose.position.z = tip.z();
+  pose->pose.position = tf2::toMsg(lap_[tick_ % kLap].axis.tip);
   pose->pose.orientation.w = 1.0;
   waiting_[stamp.toNSec()] = ros::SteadyTime::now();
   poses_.publish(pose);

@@ -1,12 +1,11 @@
 """What is measured: a node, a nodelet or an echo, with the simulator that measures it."""
 
 import itertools
-import json
 import pathlib
 import subprocess
-import sys
 
 from latencies import Latencies
+from program import Program
 
 RADIUS = {1224: 5e-3, 100_000: 5.53e-4, 1_000_000: 1.75e-4}  # [m]; the same as SceneScale in tool_motions.cpp
 # What answers, as end_to_end names it, and the program that answers in a process of its own.
@@ -58,44 +57,29 @@ class Subject:
         elif program:
             self.node = subprocess.Popen(workspace.command(program, tools, *names), stdout=subprocess.DEVNULL)
         idle = resident_bytes(self.node) if self.node else 0
-        self.simulator = subprocess.Popen(
-            [*simulator_prefix, *workspace.command('end_to_end', answerer, faces, tools, *names)],
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE, universal_newlines=True)
-        self._read_line()
+        self.simulator = Program([*simulator_prefix, *workspace.command('end_to_end', answerer, faces, tools, *names)])
+        self.simulator.read_line()
         self.run_shapes(20.0, 1.0)
         if kind == 'node':  # Before any higher rate: if the node cannot keep up, waiting messages take memory, too.
             self.bytes_per_face = (resident_bytes(self.node) - idle) / faces
 
     def run_shapes(self, rate, seconds):
         """The latencies from shapes that are sent at a rate [Hz] to the contacts of the last tool."""
-        return Latencies.of_report(self._ask(f'shapes {rate} {seconds}'))
+        return Latencies.of_report(self.simulator.ask(f'shapes {rate} {seconds}'))
 
     def call_service(self, seconds):
         """The latencies of calls of the service `query`, one after the other."""
-        return Latencies.of_report(self._ask(f'service {seconds}'))
+        return Latencies.of_report(self.simulator.ask(f'service {seconds}'))
 
     def raise_simulator(self, priority):
         """Gives the simulator's thread realtime priority."""
-        self._ask(f'priority {priority}')
-
-    def _ask(self, command):
-        self.simulator.stdin.write(command + '\n')
-        self.simulator.stdin.flush()
-        return json.loads(self._read_line())
-
-    def _read_line(self):
-        """The next report of the simulator. What roscpp logs begins with an escape sequence or a bracket."""
-        for line in self.simulator.stdout:
-            if line == '\n' or line.startswith('{'):
-                return line
-        sys.exit(f'end_to_end: {self.kind} with {self.tools} tools and {self.faces} faces failed')
+        self.simulator.ask(f'priority {priority}')
 
     def __enter__(self):
         return self
 
     def __exit__(self, *_):
-        self.simulator.stdin.close()
-        self.simulator.terminate()
-        for process in filter(None, (self.simulator, self.node)):
-            process.terminate()
-            process.wait()
+        self.simulator.__exit__()
+        if self.node:
+            self.node.terminate()
+            self.node.wait()

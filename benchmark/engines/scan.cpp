@@ -8,9 +8,6 @@
 #include "engine.hpp"
 #include "exact_clip.hpp"
 
-#if defined(__x86_64__)
-#endif
-
 namespace organ_collision::bench {
 namespace {
 

@@ -19,7 +19,7 @@
 #include "benchmark/cases/timing.hpp"
 #include "benchmark/engines/fcl_tool.hpp"
 #include "benchmark/scenes/tool_motions.hpp"
-#include "organ_collision/query/collision_query.hpp"
+#include "query/make_request.hpp"
 
 namespace organ_collision::bench {
 
@@ -119,21 +119,9 @@ MotionEngines::Comparison MotionEngines::compare(std::size_t count) const {
 }
 
 CollisionRequest MotionEngines::request(const ToolPath& path, QueryMode mode) const {
-  CollisionRequest request;
-  request.organ = &organ_;
-  request.path = path;
-  request.radius = motions_.radius;
-  request.links = motions_.links.empty() ? nullptr : &motions_.links;
-  request.mode = mode;
-  return request;
+  const std::vector<Link>* const links = motions_.links.empty() ? nullptr : &motions_.links;
+  return make_request({&organ_}, {motions_.radius, links}, {mode}, path);
 }
-
-/// Writes into `folder` what query_offline and the node need for the same motions: organ.obj;
-/// without links, `count` motions in static.csv and swept.csv, the motions of the set again and
-/// again; with links, the URDF robot.urdf and the meshes of the links. Throws std::runtime_error if
-/// a file cannot be written.
-void write_files(const std::string& folder, const OrganSurface& organ, const MotionSet& motions,
-                 std::size_t count);
 
 namespace {
 
@@ -153,15 +141,15 @@ class File {
   std::ofstream stream_;
 };
 
-void write_organ(const std::string& path, const OrganSurface& organ) {
+/// An OBJ file.
+void write_surface(const std::string& path, const std::vector<Eigen::Vector3d>& vertices,
+                   const std::vector<FaceIndices>& faces) {
   File file(path);
-  for (std::size_t i = 0; i < organ.vertices.size(); i += 3) {
-    file.stream() << "v " << organ.vertices[i] << ' ' << organ.vertices[i + 1] << ' '
-                  << organ.vertices[i + 2] << '\n';
+  for (const Eigen::Vector3d& vertex : vertices) {
+    file.stream() << "v " << vertex.x() << ' ' << vertex.y() << ' ' << vertex.z() << '\n';
   }
-  for (std::size_t i = 0; i < organ.triangles.size(); i += 3) {
-    file.stream() << "f " << organ.triangles[i] + 1 << ' ' << organ.triangles[i + 1] + 1 << ' '
-                  << organ.triangles[i + 2] + 1 << '\n';
+  for (const FaceIndices& face : faces) {
+    file.stream() << "f " << face[0] + 1 << ' ' << face[1] + 1 << ' ' << face[2] + 1 << '\n';
   }
   file.close();
 }
@@ -183,17 +171,6 @@ void write_motions(const std::string& path, const char* mode, const MotionSet& m
   file.close();
 }
 
-void write_surface(const std::string& path, const ToolSurface& surface) {
-  File file(path);
-  for (const Eigen::Vector3d& vertex : surface.vertices()) {
-    file.stream() << "v " << vertex.x() << ' ' << vertex.y() << ' ' << vertex.z() << '\n';
-  }
-  for (const FaceIndices& face : surface.faces()) {
-    file.stream() << "f " << face[0] + 1 << ' ' << face[1] + 1 << ' ' << face[2] + 1 << '\n';
-  }
-  file.close();
-}
-
 /// The links of the Grasper: each has one part, either a mesh or a cylinder along z.
 void write_robot(const std::string& folder, const std::vector<Link>& links) {
   File file(folder + "/robot.urdf");
@@ -205,7 +182,7 @@ void write_robot(const std::string& folder, const std::vector<Link>& links) {
                   << link.name << "\"><collision>";
     if (part.surface) {
       const std::string path = folder + "/" + link.name + ".obj";
-      write_surface(path, *part.surface);
+      write_surface(path, part.surface->vertices(), part.surface->faces());
       file.stream() << "<geometry><mesh filename=\"file://" << path << "\"/></geometry>";
     } else {
       const OrientedBox& box = part.bounds;
@@ -221,9 +198,16 @@ void write_robot(const std::string& folder, const std::vector<Link>& links) {
 
 }  // namespace
 
+/// Writes into `folder` what query_offline and the node need for the same motions: organ.obj;
+/// without links, `count` motions in static.csv and swept.csv, the motions of the set again and
+/// again; with links, the URDF robot.urdf and the meshes of the links. Throws std::runtime_error if
+/// a file cannot be written.
 void write_files(const std::string& folder, const OrganSurface& organ, const MotionSet& motions,
                  std::size_t count) {
-  write_organ(folder + "/organ.obj", organ);
+  const TriangleMesh mesh(organ.vertices, organ.triangles);
+  std::vector<Eigen::Vector3d> vertices;
+  for (std::size_t i = 0; i < mesh.vertex_count(); ++i) vertices.push_back(mesh.vertex(i));
+  write_surface(folder + "/organ.obj", vertices, mesh.faces());
   if (!motions.links.empty()) return write_robot(folder, motions.links);
   write_motions(folder + "/static.csv", "static", motions, count);
   write_motions(folder + "/swept.csv", "swept", motions, count);

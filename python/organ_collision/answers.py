@@ -4,24 +4,17 @@ import re
 
 import numpy as np
 
-from organ_collision.msg import ContactArray
+from organ_collision.msg import Clearance, Contact, ContactArray, Crossing
 
 # The names of the statuses, by number: in the text of the message, they stand above the modes.
 _NAMES = dict(enumerate(re.findall(r'^uint8 (\w+)=', ContactArray._full_text.split('# Modes')[0], re.MULTILINE)))
 
-_PLACE = [('face', np.uint32), ('vertices', np.uint32, 3), ('barycentric', float, 3)]
-# The fields of Contact.msg, Crossing.msg and Clearance.msg, in their order.
-_CONTACT = np.dtype([
-    ('face', np.uint32), ('vertices', np.uint32, 3), ('link', np.int32), ('touching', bool), ('since', float),
-    ('fraction', float), ('point', float, 3), ('normal', float, 3), ('barycentric', float, 3), ('shaft', float),
-    ('depth', float), ('behind', bool), ('on_organ', float, 3), ('velocity', float, 3),
-    ('on_tool', float, 3)])
-_CROSSING = np.dtype(_PLACE + [('shaft', float), ('point', float, 3), ('direction', np.int8)])
-_CLEARANCE = np.dtype(
-    [('state', np.uint8), ('margin', float), ('unlimited', bool), ('distance', float), ('least', float),
-     ('least_fraction', float)] + _PLACE +
-    [('link', np.int32), ('on_organ', float, 3), ('on_tool', float, 3), ('normal', float, 3),
-     ('normal_defined', bool), ('unresolved', bool), ('closing_speed', float)])
+# The columns of fields that are not plain numbers.
+_COLUMNS = {'geometry_msgs/Point': (float, 3), 'geometry_msgs/Vector3': (float, 3), 'float64[3]': (float, 3),
+            'uint32[3]': (np.uint32, 3), 'time': (float,)}
+# How the values of such fields come into a row. All others are there as they are.
+_CELLS = {'geometry_msgs/Point': lambda at: (at.x, at.y, at.z), 'geometry_msgs/Vector3': lambda at: (at.x, at.y, at.z),
+          'time': lambda at: at.to_sec()}
 
 
 class CollisionError(RuntimeError):
@@ -40,7 +33,7 @@ def contact_table(answer):
     in answer.links; -1 is the shaft. Raises CollisionError if the status is not OK: then nothing is known about
     contacts.
     """
-    return _table(answer, answer.contacts, _CONTACT, _contact_row)
+    return _table(answer, answer.contacts, Contact)
 
 
 def contacts_of_all(answers):
@@ -49,9 +42,8 @@ def contacts_of_all(answers):
     Its columns are those of contact_table(), and `motion` before them: the number of the answer that has the contact,
     from 0. Answers whose status is not OK have no contacts: look at their status.
     """
-    columns = np.dtype([('motion', np.intp)] + [(name, _CONTACT[name]) for name in _CONTACT.names])
-    rows = [(motion,) + _contact_row(contact) for motion, answer in enumerate(answers) for contact in answer.contacts]
-    return np.array(rows, dtype=columns).view(np.recarray)
+    rows = [(motion,) + _row(contact) for motion, answer in enumerate(answers) for contact in answer.contacts]
+    return np.array(rows, dtype=[('motion', np.intp)] + _columns(Contact)).view(np.recarray)
 
 
 def near_table(answer):
@@ -61,7 +53,7 @@ def near_table(answer):
     has `max_near`. answer.near_more tells whether it leaves further faces out. Raises CollisionError if the status
     is not OK.
     """
-    return _table(answer, answer.near, _CONTACT, _contact_row)
+    return _table(answer, answer.near, Contact)
 
 
 def crossing_table(answer):
@@ -70,7 +62,7 @@ def crossing_table(answer):
     Its columns are the fields of Crossing.msg: crossings.point has the shape (k, 3), crossings.direction is +1 where
     the axis enters and -1 where it leaves. Raises CollisionError if the status is not OK.
     """
-    return _table(answer, answer.placement.crossings, _CROSSING, _crossing_row)
+    return _table(answer, answer.placement.crossings, Crossing)
 
 
 def clearance_record(answer):
@@ -79,29 +71,20 @@ def clearance_record(answer):
     Only if clearance.state is Clearance.KNOWN, clearance.distance and what belongs to it are set. clearance.on_tool
     and clearance.on_organ have the shape (3,). Raises CollisionError if the status is not OK.
     """
-    return _table(answer, [answer.clearance], _CLEARANCE, _clearance_row)[0]
+    return _table(answer, [answer.clearance], Clearance)[0]
 
 
-def _table(answer, messages, columns, row):
+def _table(answer, messages, kind):
     if answer.status != ContactArray.OK:
         raise CollisionError(answer.status, answer.message)
-    return np.array([row(message) for message in messages], dtype=columns).view(np.recarray)
+    return np.array([_row(message) for message in messages], dtype=_columns(kind)).view(np.recarray)
 
 
-def _contact_row(c):
-    return (c.face, c.vertices, c.link, c.touching, c.since.to_sec(), c.fraction, _xyz(c.point), _xyz(c.normal),
-            c.barycentric, c.shaft, c.depth, c.behind, _xyz(c.on_organ), _xyz(c.velocity), _xyz(c.on_tool))
+def _columns(kind):
+    """The fields of a type of messages, in their order."""
+    return [(name, *_COLUMNS.get(of, (of,))) for name, of in zip(kind.__slots__, kind._slot_types)]
 
 
-def _crossing_row(c):
-    return (c.face, c.vertices, c.barycentric, c.shaft, _xyz(c.point), c.direction)
-
-
-def _clearance_row(c):
-    return (c.state, c.margin, c.unlimited, c.distance, c.least, c.least_fraction, c.face, c.vertices, c.barycentric,
-            c.link, _xyz(c.on_organ), _xyz(c.on_tool), _xyz(c.normal), c.normal_defined, c.unresolved,
-            c.closing_speed)
-
-
-def _xyz(point):
-    return point.x, point.y, point.z
+def _row(message):
+    return tuple([_CELLS[of](getattr(message, name)) if of in _CELLS else getattr(message, name)
+                  for name, of in zip(message.__slots__, message._slot_types)])

@@ -48,7 +48,11 @@ class HapticProxyNode final : public OrganNode {
 
  private:
   using Time = ToolProxy::Time;
+  using SteadyClock = std::chrono::steady_clock;
   using SharedShape = std::shared_ptr<const TriangleMesh>;
+
+  /// While a force fades or rises, it is published with this period.
+  static constexpr std::chrono::milliseconds kFadeStep{1};
 
   /// A shape of an organ that a tool in lockstep has not answered yet.
   struct AwaitedShape {
@@ -64,7 +68,6 @@ class HapticProxyNode final : public OrganNode {
     /// ProxyScene::stamps at the last look at the organs. Empty: there was no ProxyScene then.
     std::optional<std::vector<ros::Time>> organs = {};
     std::optional<Time> heard = {};         ///< when the last pose came; empty: none came yet
-    double period_sec = 0.0;                ///< [s] between the last two poses; 0: not known
     bool is_waiting = false;                ///< a pose came on its topic, and needs a tick
     bool is_leaving = false;                ///< the hand's tool will be removed or changed soon
     bool had_answer = false;                ///< there was an answer since the start
@@ -79,14 +82,15 @@ class HapticProxyNode final : public OrganNode {
   void await_shape(const OrganUpdate& update);
   void answer_shapes(std::size_t tool, Time now);
   std::optional<Timed<ToolPose>> pose_for(std::size_t tool, const AwaitedShape& awaited, Time now);
-  void check_proxy(std::size_t tool) const;
   AgeLimits age_limits() const {
     return {parameters_.mesh_timeout_sec, parameters_.frame_timeout_sec};
   }
+  Time::duration pose_timeout() const {
+    return std::chrono::duration_cast<Time::duration>(
+        std::chrono::duration<double>(parameters_.pose_timeout_sec));
+  }
   Timed<ToolPose> latest_pose(std::size_t tool) const;
-  ProxyScene scene_at(Time now);
-  ProxyScene scene_of(const AwaitedShape& awaited);
-  ProxyScene scene_with(const ShapeOf& shape_of, const AgeLimits& limits, ros::Time at);
+  ProxyScene scene_of(const AwaitedShape* awaited, Time now);
   bool is_due(std::size_t tool, ros::Time stamp, bool have_organs_moved, Time now);
   void tick(Hand& hand, const Timed<ToolPose>& pose, const ProxyScene& scene, Time now,
             const std::string& answered_organ = "");

@@ -13,7 +13,6 @@
 /// The names of parameters that the code or messages to the user mention.
 namespace organ_collision::names {
 
-inline constexpr char kStiffness[] = "stiffness";
 inline constexpr char kMaxForce[] = "max_force", kMaxTorque[] = "max_torque";
 inline constexpr char kMeshTimeoutSec[] = "mesh_timeout_sec";
 inline constexpr char kFrameTimeoutSec[] = "frame_timeout_sec";
@@ -94,7 +93,7 @@ inline ParameterTable table_of(HapticProxyParameters& p) {
       },
       "TF frame in which proxies move and forces are given. If its organ is removed, that of "
       "another one is chosen, and proxies are placed anew");
-  t.number(names::kStiffness, p.stiffness, {1e-3, 1e5},
+  t.number("stiffness", p.stiffness, {1e-3, 1e5},
            "[N/m] force for each metre between hand and proxy")
       .live();
   t.number(

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "query/proxy/proxy_motion.hpp"
+
 namespace organ_collision {
 
 /// The share of the way at `now`, in [0, 1].
@@ -25,7 +27,6 @@ void OrganInterpolation::update(const OrganRegistry& organs, Time now) {
     const std::chrono::duration<double> since = std::min<Time::duration>(now - way.start, kLongest);
     way.from = is_comparable ? shape_on(way, now) : latest;
     way.seconds = is_comparable ? since.count() : 0.0;
-    if (!is_comparable) way.shapes.clear();
     way.to = latest;
     way.start = now;
   }
@@ -43,21 +44,9 @@ bool OrganInterpolation::is_moving(Time now) const {
                      [&](const auto& way) { return way.second.share(now) < 1.0; });
 }
 
-std::shared_ptr<const TriangleMesh> OrganInterpolation::shape_on(Way& way, Time now) {
+std::shared_ptr<const TriangleMesh> OrganInterpolation::shape_on(const Way& way, Time now) {
   const double share = way.share(now);
-  if (share == 1.0) return way.to;
-  std::vector<float> vertices(way.to->vertices().size());
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const double from = way.from->vertices()[i], to = way.to->vertices()[i];
-    vertices[i] = static_cast<float>(from + share * (to - from));
-  }
-  auto free = std::find_if(way.shapes.begin(), way.shapes.end(),
-                           [](const auto& shape) { return shape.use_count() == 1; });
-  if (free == way.shapes.end()) {
-    free = way.shapes.insert(way.shapes.end(), std::make_shared<TriangleMesh>(*way.to));
-  }
-  (*free)->move_vertices(std::move(vertices));
-  return *free;
+  return share == 1.0 ? way.to : shape_between(*way.from, *way.to, share);
 }
 
 }  // namespace organ_collision

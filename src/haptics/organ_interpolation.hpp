@@ -5,7 +5,6 @@
 #include <map>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "node/organs/organ_registry.hpp"
 
@@ -38,12 +37,11 @@ class OrganInterpolation {
     std::shared_ptr<const TriangleMesh> from, to;
     Time start{};          ///< when the shape `to` came
     double seconds = 0.0;  ///< how long the way takes; 0: the organ rests
-    std::vector<std::shared_ptr<TriangleMesh>> shapes = {};  ///< memory for shapes on the way
 
     double share(Time now) const;
   };
 
-  static std::shared_ptr<const TriangleMesh> shape_on(Way& way, Time now);
+  static std::shared_ptr<const TriangleMesh> shape_on(const Way& way, Time now);
 
   std::map<std::string, Way> ways_;  ///< by organ
 };

@@ -15,20 +15,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// How long ago the last transform of a frame may have come.
-struct FrameLimit {
-  double seconds;
-  const char* parameter;  ///< the name of the parameter with this limit
-};
-
-FrameLimit frame_limit(const AgeLimits& limits) {
-  const FrameLimit of_meshes{limits.mesh_sec, names::kMeshTimeoutSec};
-  const FrameLimit of_frames{limits.frame_sec, names::kFrameTimeoutSec};
-  if (of_frames.seconds == 0.0) return of_meshes;
-  const bool is_first = of_meshes.seconds > 0.0 && of_meshes.seconds < of_frames.seconds;
-  return is_first ? of_meshes : of_frames;
-}
-
 /// The organ's name for a proxy. When its sender restarts, the organ gets another name, and is
 /// therefore another organ: it does not carry the proxy from the old shape to the new one.
 std::string name_of_history(const DeformableOrgan& organ) {
@@ -37,11 +23,6 @@ std::string name_of_history(const DeformableOrgan& organ) {
 
 /// [1] The least lever of a place near the trocar.
 constexpr double kLeastLever = 0.1;
-
-TissueMotion motion_of(const DeformableOrgan& organ, ros::Time now) {
-  const OrganShape& latest = organ.latest();
-  return {latest.moves_from(now), latest.mesh, latest.motion_sec};
-}
 
 /// [m] How far a point of a face has moved with an organ, in the proxy's frame.
 Vector3d way_of(const std::vector<ProxyOrgan>& before, const ProxyOrgan& now, std::uint32_t face,
@@ -124,7 +105,8 @@ ProxyScene proxy_scene(const OrganRegistry& organs, const TransformBuffer& trans
   if (organs.organs().empty()) throw no_organ();
   ProxyScene scene{frame, {}, {}};
   for (const auto& [name, organ] : organs.organs()) {
-    const std::string stale = stale_fault(name, organ.latest(), now, limits.mesh_sec);
+    const OrganShape& latest = organ.latest();
+    const std::string stale = stale_fault(name, latest, now, limits.mesh_sec);
     if (!stale.empty()) {
       throw Rejection(ContactArray::STALE_MESH, reason_of(ContactArray::STALE_MESH), stale);
     }
@@ -136,14 +118,14 @@ ProxyScene proxy_scene(const OrganRegistry& organs, const TransformBuffer& trans
     }
     check_age(transforms, organ.frame(), {frame}, limits, now);
     check_age(transforms, frame, {organ.frame()}, limits, now);
-    scene.stamps.push_back(T_organ_proxy.found->stamp);
-    auto shape = shape_of(organ);
-    scene.organs.push_back({name_of_history(organ), std::move(shape.value),
-                            organ.latest().topology(), T_organ_proxy.found->value});
-    scene.sources.push_back(&organ);
-    TissueMotion& motion = scene.motions.emplace_back(motion_of(organ, now));
-    motion.stamp = shape.stamp;
     const ros::Time stamp = T_organ_proxy.found->stamp;
+    scene.stamps.push_back(stamp);
+    auto shape = shape_of(organ);
+    scene.organs.push_back({name_of_history(organ), std::move(shape.value), latest.topology(),
+                            T_organ_proxy.found->value});
+    scene.sources.push_back(&organ);
+    TissueMotion& motion = scene.motions.emplace_back(
+        TissueMotion{latest.moves_from(now), latest.mesh, latest.motion_sec, shape.stamp});
     if (stamp.toSec() > kVelocitySec && transforms.goes_on(organ.frame(), {frame}, stamp, now)) {
       const ros::Time before = stamp - ros::Duration(kVelocitySec);
       const auto T_before = look_up(transforms, organ.frame(), frame, before);
@@ -155,16 +137,19 @@ ProxyScene proxy_scene(const OrganRegistry& organs, const TransformBuffer& trans
 
 void check_age(const TransformBuffer& transforms, const std::string& frame,
                const TransformBuffer::Frames& others, const AgeLimits& limits, ros::Time now) {
-  const FrameLimit limit = frame_limit(limits);
-  if (!(limit.seconds > 0.0)) return;
+  const bool is_of_frames =
+      limits.frame_sec > 0.0 && !(limits.mesh_sec > 0.0 && limits.mesh_sec < limits.frame_sec);
+  const double most = is_of_frames ? limits.frame_sec : limits.mesh_sec;
+  if (!(most > 0.0)) return;
   const auto last = transforms.oldest_transform(frame, others);
   if (!last) return;
   const double age = now.toSec() - last->received.toSec();
-  if (!(age > limit.seconds)) return;
+  if (!(age > most)) return;
   throw Rejection(
       ContactArray::STALE_MESH, "stale frame",
       concatenate("the last transform of frame '", last->frame, "' came ", duration_text(age),
-                  " ago; at most ", limit.seconds, " s are allowed (", limit.parameter, ")"));
+                  " ago; at most ", most, " s are allowed (",
+                  is_of_frames ? names::kFrameTimeoutSec : names::kMeshTimeoutSec, ")"));
 }
 
 }  // namespace organ_collision

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <thread>
 
-#include "programs/query_offline/text_reader.hpp"
+#include "programs/query_offline/motions.hpp"
 #include "temporary_files.hpp"
 
 namespace organ_collision {

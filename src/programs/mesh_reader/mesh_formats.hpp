@@ -8,7 +8,8 @@ namespace organ_collision {
 
 // These functions read the formats for which no library keeps the order of the vertices and rounds
 // numbers correctly: assimp reorders the vertices of OBJ files and leaves out those without a face,
-// rounds texts twice, and refuses STL files with capitals or with bytes after the last triangle.
+// rounds texts twice, refuses STL files with capitals or with bytes after the last triangle, and
+// takes PLY and OFF files that are cut off.
 
 /// The `v` and `f` lines of a Wavefront OBJ file. All others are ignored. Corners may be negative
 /// (counted back from the last vertex above the line) and may have texture and normal indices,
@@ -24,8 +25,7 @@ void read_stl(MeshText& text, std::string_view content, MeshBuilder& mesh);
 void read_ply(MeshText& text, MeshBuilder& mesh);
 
 /// An OFF file, as text. Colours, normals and texture coordinates are ignored. `text`: with
-/// comments
-/// (#).
+/// comments (#).
 void read_off(MeshText& text, MeshBuilder& mesh);
 
 }  // namespace organ_collision

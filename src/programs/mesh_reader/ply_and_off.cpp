@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <cstring>
+#include <boost/endian/conversion.hpp>
 #include <map>
 #include <optional>
 
@@ -9,18 +9,38 @@
 namespace organ_collision {
 namespace {
 
-/// The type of a number in a PLY file. Kinds: signed integer (i), unsigned integer (u), float (f).
+using boost::endian::order;
+
+/// The type of a number in a PLY file.
 struct Type {
-  char kind = 'f';
-  std::size_t size = 4;  ///< [bytes]
+  std::size_t size = 0;  ///< [bytes]
+  /// These read a number of this type. Of OFF files, there are only texts.
+  double (*little_endian)(const unsigned char* bytes) = nullptr;
+  double (*big_endian)(const unsigned char* bytes) = nullptr;
 };
 
+template <typename Number, order kOrder>
+double load(const unsigned char* bytes) {
+  const auto number = boost::endian::endian_load<Number, sizeof(Number), kOrder>(bytes);
+  return static_cast<double>(number);
+}
+
+template <typename Number>
+constexpr Type type_of() {
+  return {sizeof(Number), load<Number, order::little>, load<Number, order::big>};
+}
+
 const std::map<std::string_view, Type> kTypes = {
-    {"char", {'i', 1}},  {"int8", {'i', 1}},    {"uchar", {'u', 1}},  {"uint8", {'u', 1}},
-    {"short", {'i', 2}}, {"int16", {'i', 2}},   {"ushort", {'u', 2}}, {"uint16", {'u', 2}},
-    {"int", {'i', 4}},   {"int32", {'i', 4}},   {"uint", {'u', 4}},   {"uint32", {'u', 4}},
-    {"long", {'i', 8}},  {"int64", {'i', 8}},   {"ulong", {'u', 8}},  {"uint64", {'u', 8}},
-    {"float", {'f', 4}}, {"float32", {'f', 4}}, {"double", {'f', 8}}, {"float64", {'f', 8}}};
+    {"char", type_of<std::int8_t>()},     {"int8", type_of<std::int8_t>()},
+    {"uchar", type_of<std::uint8_t>()},   {"uint8", type_of<std::uint8_t>()},
+    {"short", type_of<std::int16_t>()},   {"int16", type_of<std::int16_t>()},
+    {"ushort", type_of<std::uint16_t>()}, {"uint16", type_of<std::uint16_t>()},
+    {"int", type_of<std::int32_t>()},     {"int32", type_of<std::int32_t>()},
+    {"uint", type_of<std::uint32_t>()},   {"uint32", type_of<std::uint32_t>()},
+    {"long", type_of<std::int64_t>()},    {"int64", type_of<std::int64_t>()},
+    {"ulong", type_of<std::uint64_t>()},  {"uint64", type_of<std::uint64_t>()},
+    {"float", type_of<float>()},          {"float32", type_of<float>()},
+    {"double", type_of<double>()},        {"float64", type_of<double>()}};
 
 struct Property {
   std::string_view name;
@@ -56,13 +76,10 @@ class Body {
   double next(Type type, const Element& element) {
     if (encoding_ == Encoding::kText) return text_.number(next_++);
     if (bytes_.size() < type.size) throw cut_off(element);
-    std::uint64_t bits = 0;
-    for (std::size_t i = 0; i < type.size; ++i) {
-      const std::size_t at = encoding_ == Encoding::kLittleEndian ? type.size - 1 - i : i;
-      bits = bits << 8U | static_cast<unsigned char>(bytes_[at]);
-    }
+    const auto* const bytes = reinterpret_cast<const unsigned char*>(bytes_.data());
     bytes_.remove_prefix(type.size);
-    return value(bits, type);
+    return encoding_ == Encoding::kLittleEndian ? type.little_endian(bytes)
+                                                : type.big_endian(bytes);
   }
   /// Throws if the line of a text has further words.
   void end_row() const {
@@ -78,23 +95,6 @@ class Body {
                                    "; it may be cut off"));
   }
 
-  static double value(std::uint64_t bits, Type type) {
-    if (type.kind == 'u') return static_cast<double>(bits);
-    if (type.kind == 'i') {
-      const std::size_t shift = 64 - 8 * type.size;  // It brings the sign to its place.
-      return static_cast<double>(static_cast<std::int64_t>(bits << shift) >> shift);
-    }
-    if (type.size == sizeof(double)) {
-      double number = 0.0;
-      std::memcpy(&number, &bits, sizeof number);
-      return number;
-    }
-    const auto low = static_cast<std::uint32_t>(bits);
-    float number = 0.0F;
-    std::memcpy(&number, &low, sizeof number);
-    return number;
-  }
-
   MeshText& text_;
   Encoding encoding_;
   std::string_view bytes_;
@@ -107,7 +107,7 @@ std::size_t count_of(double number) {
   return number > 0.0 ? static_cast<std::size_t>(std::min(number, kMost)) : 0;
 }
 
-Type type_of(const MeshText& text, std::size_t place) {
+Type type_at(const MeshText& text, std::size_t place) {
   const auto known = kTypes.find(text.word(place));
   if (known != kTypes.end()) return known->second;
   throw text.error(in_quotes(text.word(place)) + " is no type of a number");
@@ -133,9 +133,9 @@ Header read_header(MeshText& text) {
     } else if (word == "element") {
       elements.push_back({text.word(1), count_of(text.number(2)), {}});
     } else if (word == "property" && !elements.empty() && text.word(1) == "list") {
-      elements.back().properties.push_back({text.word(4), type_of(text, 3), type_of(text, 2)});
+      elements.back().properties.push_back({text.word(4), type_at(text, 3), type_at(text, 2)});
     } else if (word == "property" && !elements.empty()) {
-      elements.back().properties.push_back({text.word(2), type_of(text, 1), std::nullopt});
+      elements.back().properties.push_back({text.word(2), type_at(text, 1), std::nullopt});
     } else if (word != "comment" && word != "obj_info") {
       throw text.error(in_quotes(word) + " is no line of a PLY header");
     }

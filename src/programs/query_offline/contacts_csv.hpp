@@ -8,11 +8,8 @@
 
 namespace organ_collision {
 
-/// What is asked about each motion, and how it is answered.
-struct Questions {
-  double margin = 0.0;     ///< [m] the clearance is asked for up to this distance; 0: not asked for
-  bool clearance = false;  ///< whether the clearance is asked for without a limit
-  bool placement = false;  ///< whether sides and crossings are asked for
+/// What is asked about each motion, whose mode does not count, and how it is answered.
+struct Questions : QueryOptions {
   bool blank_lines = false;  ///< whether a blank line follows the answer to each motion
   PickerSettings picker;
   std::size_t jobs = 1;  ///< the number of threads

@@ -1,8 +1,12 @@
 #include "motions.hpp"
 
-#include <algorithm>
-#include <array>
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -23,36 +27,32 @@ CollisionRequest request_of(const Motion& motion, const AskedOrgan& organ, Query
 
 namespace {
 
+constexpr std::size_t kPiece = 1 << 16;  // [bytes] read at once, at most
+
 enum Column {
   kQuery,
   kMode,
   kTrocar,
   kPrevious = kTrocar + 3,
   kTip = kPrevious + 3,
-  kRadius = 11,
-  kPreviousTrocar
+  kRadius = kTip + 3,
+  kPreviousTrocar,
+  kColumns = kPreviousTrocar + 3
 };
 
-constexpr std::array<std::string_view, 15> kColumns = {"query",
-                                                       "mode",
-                                                       "trocar_x",
-                                                       "trocar_y",
-                                                       "trocar_z",
-                                                       "previous_x",
-                                                       "previous_y",
-                                                       "previous_z",
-                                                       "tip_x",
-                                                       "tip_y",
-                                                       "tip_z",
-                                                       "radius",
-                                                       "previous_trocar_x",
-                                                       "previous_trocar_y",
-                                                       "previous_trocar_z"};
-/// The number of columns if the trocars rest.
-constexpr std::size_t kFewestColumns = kPreviousTrocar;
+/// The names of all columns. If the trocars rest, the last three may be missing.
+constexpr std::string_view kNames =
+    "query,mode,trocar_x,trocar_y,trocar_z,previous_x,previous_y,previous_z,tip_x,tip_y,tip_z,"
+    "radius,previous_trocar_x,previous_trocar_y,previous_trocar_z";
+
+std::vector<std::string_view> column_names() {
+  std::vector<std::string_view> names;
+  split_cells(kNames, names);
+  return names;
+}
 
 bool is_legal_count(std::size_t columns) {
-  return columns == kFewestColumns || columns == kColumns.size();
+  return columns == kPreviousTrocar || columns == kColumns;
 }
 
 constexpr std::pair<std::string_view, QueryMode> kModes[] = {
@@ -73,6 +73,68 @@ void check_motion(const Motion& motion) {
 
 }  // namespace
 
+TextReader::TextReader(const std::string& file)
+    : file_(file == "-" ? "standard input" : file),
+      descriptor_(file == "-" ? STDIN_FILENO : open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
+  if (descriptor_ < 0) fail("cannot be opened");
+}
+
+TextReader::~TextReader() {
+  if (descriptor_ != STDIN_FILENO) close(descriptor_);
+}
+
+bool TextReader::next() {
+  constexpr int kForEver = -1;
+  find_line(kForEver);
+  if (line_.empty()) return false;
+  ends_within_line_ = end_ == buffer_.size();
+  go_behind_line();
+  return true;
+}
+
+/// Makes the next line that is not blank the current one. At the end of the file, it is empty.
+/// Returns false if the line has not arrived after `wait` [ms].
+bool TextReader::find_line(int wait) {
+  while (true) {
+    end_ = std::min(buffer_.find('\n', begin_), buffer_.size());
+    if (end_ == buffer_.size() && !at_end_) {
+      if (!read_piece(wait)) return false;
+      continue;
+    }
+    line_ = std::string_view(buffer_).substr(begin_, end_ - begin_);
+    if (number_ == 0) line_ = without_byte_order_mark(line_);
+    line_ = trimmed(line_);
+    if (!line_.empty() || begin_ == buffer_.size()) return true;
+    go_behind_line();
+  }
+}
+
+void TextReader::go_behind_line() {
+  ++number_;
+  begin_ = std::min(end_ + 1, buffer_.size());
+}
+
+/// Reads what has arrived. Waits for it, because read() fails if the pipe does not block, but at
+/// most for `wait` [ms]. Returns false if nothing has arrived.
+bool TextReader::read_piece(int wait) {
+  pollfd wanted{descriptor_, POLLIN, 0};
+  const int ready = TEMP_FAILURE_RETRY(poll(&wanted, 1, wait));
+  if (ready == 0) return false;
+  buffer_.erase(0, begin_);
+  begin_ = 0;
+  const std::size_t size = buffer_.size();
+  buffer_.resize(size + kPiece);
+  const ssize_t count = TEMP_FAILURE_RETRY(read(descriptor_, &buffer_[size], kPiece));
+  if (ready < 0 || count < 0) fail("cannot be read");
+  buffer_.resize(size + static_cast<std::size_t>(count));
+  at_end_ = count == 0;
+  return true;
+}
+
+void TextReader::fail(const std::string& what) const {
+  throw InputError(file_ + ": " + what + ": " + std::strerror(errno));
+}
+
 /// The motion in the next line that has one.
 std::optional<Motion> Motions::read() {
   while (text_.next()) {
@@ -88,8 +150,8 @@ std::optional<Motion> Motions::read() {
 /// The motion in the current line.
 Motion Motions::motion() const {
   if (!is_legal_count(cells_.size())) {
-    throw text_.error(concatenate(cells_.size(), " columns; must be ", kFewestColumns, ", or ",
-                                  kColumns.size(), " with the previous trocar"));
+    throw text_.error(concatenate(cells_.size(), " columns; must be ", int{kPreviousTrocar},
+                                  ", or ", int{kColumns}, " with the previous trocar"));
   }
   if (cells_[kQuery].empty()) throw text_.error("query is empty; must be a number or a name");
 
@@ -108,7 +170,7 @@ Motion Motions::motion() const {
   motion.tip = point(kTip);
   const bool is_static = is_static_mode(motion.mode);
   motion.previous = is_static ? motion.tip : point(kPrevious);
-  const bool rests = is_static || cells_.size() == kFewestColumns;
+  const bool rests = is_static || cells_.size() == kPreviousTrocar;
   motion.previous_trocar = rests ? motion.trocar : point(kPreviousTrocar);
   motion.radius = number(kRadius);
   if (!(motion.radius > 0.0)) {
@@ -125,7 +187,7 @@ Motion Motions::motion() const {
 double Motions::number(std::size_t column) const {
   const std::optional<double> value = parse_number(cells_[column]);
   if (value && std::isfinite(*value)) return *value;
-  throw text_.error(std::string(kColumns[column]) + " is " + in_quotes(cells_[column]) +
+  throw text_.error(std::string(column_names()[column]) + " is " + in_quotes(cells_[column]) +
                     "; must be a " + (value ? "finite number" : "number"));
 }
 
@@ -135,20 +197,18 @@ Eigen::Vector3d Motions::point(std::size_t column) const {
 
 /// Whether the current line is the header. Throws InputError if it is another header.
 bool Motions::is_header() const {
-  if (cells_[kQuery] != kColumns[kQuery]) return false;
-  if (is_legal_count(cells_.size()) && std::equal(cells_.begin(), cells_.end(), kColumns.begin())) {
+  const std::vector<std::string_view> names = column_names();
+  if (cells_[kQuery] != names[kQuery]) return false;
+  if (is_legal_count(cells_.size()) && std::equal(cells_.begin(), cells_.end(), names.begin())) {
     return true;
   }
-  std::string legal;
-  for (std::size_t i = 0; i < kFewestColumns; ++i) {
-    legal += (legal.empty() ? "" : ",") + std::string(kColumns[i]);
-  }
-  throw text_.error("header is " + in_quotes(text_.line()) + "; must be " + legal +
-                    ", and perhaps previous_trocar_x,previous_trocar_y,previous_trocar_z");
+  const std::size_t required = kNames.find(",previous_trocar");
+  throw text_.error(concatenate("header is ", in_quotes(text_.line()), "; must be ",
+                                kNames.substr(0, required), ", and perhaps ",
+                                kNames.substr(required + 1)));
 }
 
-Motions::Motions(const std::string& file, Order order)
-    : text_(file == "-" ? TextReader(StandardInput{}) : TextReader(file)) {
+Motions::Motions(const std::string& file, Order order) : text_(file) {
   if (file != "-") read_all(order);
 }
 

@@ -249,12 +249,8 @@ class Evaluation {
     const Motion& motion = motions_[number];
     AskedOrgan organ = shapes_.shapes_of(number);
     organ.topology = topology_ ? &*topology_ : nullptr;
-    QueryOptions asked;
-    asked.margin = questions_.margin;
-    asked.clearance = questions_.clearance;
-    asked.placement = questions_.placement;
     CollisionResult result;
-    query.evaluate(request_of(motion, organ, asked), result);
+    query.evaluate(request_of(motion, organ, questions_), result);
     append_contacts(motion, result, questions_, csv);
     if (questions_.blank_lines) csv += '\n';
   }

@@ -140,15 +140,6 @@ void check_types(rosbag::Bag& bag, const std::string& file, const Replay& replay
   }
 }
 
-/// Whether a topic has answers of another version of this package.
-bool has_other_answers(const rosbag::Bag& bag, const std::string& topic) {
-  rosbag::View answers(bag, rosbag::TopicQuery(topic));
-  const auto connections = answers.getConnections();
-  return std::any_of(connections.begin(), connections.end(), [](const auto* connection) {
-    return connection->md5sum != ros::message_traits::md5sum<ContactArray>();
-  });
-}
-
 bool has_topic(const rosbag::Bag& bag, const std::string& topic) {
   return rosbag::View(bag, rosbag::TopicQuery(topic)).size() > 0;
 }
@@ -212,11 +203,6 @@ void replay(const ReplayOptions& options) {
                 [&](const ContactArray& answer, ros::Time time) { answers.add(answer, time); });
   check_organs(bag, options);
   check_types(bag, options.in, replay);
-
-  if (has_other_answers(bag, contacts)) {
-    std::cerr << "replay: " << options.in << ": its answers on " << contacts
-              << " are of another version; they are made anew, in today's type" << std::endl;
-  }
 
   RecordedMessages messages(bag, [&](const rosbag::ConnectionInfo* connection) {
     const bool is_copied = options.with_input && connection->topic != contacts;

@@ -63,19 +63,6 @@ ToolPose pose_at(const std::vector<ToolPose>& way, double fraction) {
   return interpolate(way[leg], way[leg + 1], along - static_cast<double>(leg));
 }
 
-/// The shape at a time in [0, 1] between two shapes.
-std::unique_ptr<const TriangleMesh> shape_between(const TriangleMesh& before,
-                                                  const TriangleMesh& now, double time) {
-  std::vector<float> vertices(now.vertices().size());
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const double from = before.vertices()[i], to = now.vertices()[i];
-    vertices[i] = static_cast<float>(from + time * (to - from));
-  }
-  auto shape = std::make_unique<TriangleMesh>(now);
-  shape->move_vertices(std::move(vertices));
-  return shape;
-}
-
 /// The box around all organs in the proxy's frame [m].
 Eigen::AlignedBox3d box_around(const std::vector<OrganTick>& organs) {
   Eigen::AlignedBox3d box;
@@ -119,6 +106,18 @@ std::vector<Vector3d> lines_to(const OrganTick& organ, const Vector3d& from) {
 }
 
 }  // namespace
+
+std::unique_ptr<const TriangleMesh> shape_between(const TriangleMesh& before,
+                                                  const TriangleMesh& now, double time) {
+  std::vector<float> vertices(now.vertices().size());
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const double from = before.vertices()[i], to = now.vertices()[i];
+    vertices[i] = static_cast<float>(from + time * (to - from));
+  }
+  auto shape = std::make_unique<TriangleMesh>(now);
+  shape->move_vertices(std::move(vertices));
+  return shape;
+}
 
 std::optional<ProxyPlace> ProxyMotion::give_way(const ProxyPlace& start, const ToolPose& hand,
                                                 const std::vector<OrganTick>& organs) {

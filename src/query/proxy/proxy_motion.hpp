@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,10 @@
 #include "tissue.hpp"
 
 namespace organ_collision {
+
+/// The shape at a time in [0, 1] between two shapes with the same faces. Vertices move linearly.
+std::unique_ptr<const TriangleMesh> shape_between(const TriangleMesh& before,
+                                                  const TriangleMesh& now, double time);
 
 /// Where a proxy is, and how far it is from tissue there.
 struct ProxyPlace {
