@@ -8,5 +8,4 @@ tool_over_sheet  the scene of the tests of motion: a tool straight above a sheet
 scenes           meshes and poses
 foreign_meshes   meshes in other packages' messages
 launch_case      test case: launch files of the package
-vectors          arithmetic on tuples of three
 """
