@@ -76,22 +76,34 @@ void add_normals(const SceneOrgan& organ, const ContactArray& answer, double sha
   }
 }
 
-/// Adds the name of each link that touches, at its deepest contact. A shaft has the name of its
-/// tool.
+/// Adds the name of each link that touches, at its deepest contact. Names near each other share a
+/// text, a line each, so that none hides another. A shaft has the name of its tool.
 void add_names(const SceneOrgan& organ, const ContactArray& answer, double share,
                MarkerArray& picture) {
   constexpr double kDistance = 0.15;  // The distance of a name from its contact.
+  constexpr double kShared = 0.15;    // Names that are nearer to each other share a text.
   std::map<std::int32_t, const Contact*> by_link;
   for (const Contact& contact : answer.contacts) {
     const Contact*& known = by_link[contact.link];
     if (!known || is_deeper(contact, *known)) known = &contact;
   }
-  const MarkerStyle style{"names", organ.frame, colours::faded(colours::kText, share)};
+  std::vector<std::pair<Vector3d, std::string>> texts;
   for (const auto& [link, contact] : by_link) {
+    const Vector3d place = before(*contact, kDistance * organ.size());
+    const auto is_near = [&](const auto& text) {
+      return (text.first - place).norm() < kShared * organ.size();
+    };
     const std::string& name =
         link == kShaft ? answer.tool : answer.links.at(static_cast<std::size_t>(link));
-    add_text(style, before(*contact, kDistance * organ.size()), organ.size(), name, picture);
+    const auto text = std::find_if(texts.begin(), texts.end(), is_near);
+    if (text == texts.end()) {
+      texts.emplace_back(place, name);
+    } else {
+      text->second += "\n" + name;
+    }
   }
+  const MarkerStyle style{"names", organ.frame, colours::faded(colours::kText, share)};
+  for (const auto& [place, text] : texts) add_text(style, place, organ.size(), text, picture);
 }
 
 /// Adds the near faces, at their present place: the nearer, the more opaque.
@@ -196,7 +208,8 @@ void add_contacts(const SceneOrgan& organ, const ContactArray& answer, double sh
 }
 
 void add_status(const Scene& scene, const SceneOrgan& organ,
-                const std::vector<const SceneStep*>& fading, MarkerArray& picture) {
+                const std::vector<const SceneStep*>& fading, double query_sec,
+                MarkerArray& picture) {
   // The text is below the organ, because most tools come from above, and would hide it there. At
   // this distance, the organ does not hide it from a viewer who looks down at 40 degrees.
   constexpr double kDistance = 0.28;  // The distance of the text from the organ's box.
@@ -215,6 +228,8 @@ void add_status(const Scene& scene, const SceneOrgan& organ,
     add(failed ? colours::kFailure : colours::kText,
         status_line((*scene.tools)[pair.tool].parameters.name, pair.answer, fading[i]));
   }
+  // In milliseconds, because the font of RViz has no micro sign.
+  if (query_sec > 0.0) add(colours::kText, rounded("%.3f ms a query", 1e3 * query_sec));
 }
 
 }  // namespace organ_collision

@@ -79,6 +79,15 @@ void MarkerPainter::paint(const Scene& scene, const Publish& publish) {
   for (const SceneStep& step : scene.steps) {
     const SceneOrgan* organ = scene.organ(step.answer->organ);
     if (organ && is_about(step, *organ)) trail_.push_back(step);
+    if (step.query_sec == 0.0) continue;
+    query_sec_sum_ += step.query_sec;
+    ++query_count_;
+  }
+  if (query_count_ > 0 && scene.time - mean_since_ >= std::chrono::seconds(1)) {
+    mean_query_sec_ = query_sec_sum_ / static_cast<double>(query_count_);
+    mean_since_ = scene.time;
+    query_sec_sum_ = 0.0;
+    query_count_ = 0;
   }
   while (!trail_.empty() && visibility(trail_.front().time, scene.time) == 0.0) trail_.pop_front();
   const auto picture = boost::make_shared<MarkerArray>();
@@ -96,7 +105,7 @@ void MarkerPainter::paint(const Scene& scene, const Publish& publish) {
       const double share = visibility(fading.back()->time, scene.time);
       add_contacts(organ, *fading.back()->answer, share, *picture);
     }
-    add_status(scene, organ, fading, *picture);
+    add_status(scene, organ, fading, mean_query_sec_, *picture);
   }
   if (scene.more) scene.more(*picture);
   if (scene.anew) start_anew(*picture, publish);
@@ -256,7 +265,8 @@ void MarkerPublisher::add(const ToolStep& step) {
   if (subscribers_ == 0 || settings_.markers_rate_hz == 0.0) return;
   if (steps_.size() >= kMostSteps) steps_.clear();
   steps_.push_back({std::chrono::steady_clock::now(), step.answer,
-                    step.question.shape.mesh->shared_faces(), step.question.sampled.path});
+                    step.question.shape.mesh->shared_faces(), step.question.sampled.path,
+                    step.query_sec});
 }
 
 void MarkerPublisher::update(const OrganRegistry& organs, const StepHistory& history) {

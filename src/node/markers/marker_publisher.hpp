@@ -55,6 +55,13 @@ class MarkerPainter {
   /// DELETE without a frame.
   std::map<std::pair<std::string, int>, std::string> shown_;
   std::deque<SceneStep> trail_;  ///< the recent steps, which fade
+
+  // The mean time of the queries within about a second. It changes only once a second, so that
+  // people can read it.
+  SteadyTime mean_since_;
+  double query_sec_sum_ = 0.0;
+  std::size_t query_count_ = 0;
+  double mean_query_sec_ = 0.0;
 };
 
 /// The topic of a node's markers. The node's thread only notes what there is to see. A thread of

@@ -45,6 +45,7 @@ struct SceneStep {
   ContactArrayConstPtr answer;
   SharedFaces faces;  ///< the organ's triangles at that time
   ToolPath path;      ///< empty if the step failed
+  double query_sec;
 };
 
 /// Adds markers to a picture, in the drawing thread.
@@ -124,8 +125,9 @@ void add_lifted_face(visualization_msgs::Marker& list, const SceneOrgan& organ, 
 /// Numbers the marker: the ids of each namespace run from 0. Drops a list without points, which
 /// RViz would report as an error.
 void add_marker(visualization_msgs::Marker marker, visualization_msgs::MarkerArray& picture);
-/// Adds a line of text, and returns the place of the next line below it. Heights are shares of
-/// `size`.
+/// Adds a marker for each line of a text, from `place` downwards, and returns the place of the next
+/// line. Lines that are too long for a window are cut at a space. Heights are shares of `size`.
+/// RViz would draw the lines of one marker far apart.
 Eigen::Vector3d add_text(const MarkerStyle& style, const Eigen::Vector3d& place, double size,
                          const std::string& text, visualization_msgs::MarkerArray& picture);
 void add_line(const MarkerStyle& style, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
@@ -148,11 +150,11 @@ void add_surroundings(const SceneOrgan& organ, const ScenePair& pair, double rad
 /// `share`: how visible arrows and names are, in [0, 1].
 void add_contacts(const SceneOrgan& organ, const ContactArray& answer, double share,
                   visualization_msgs::MarkerArray& picture);
-/// Adds a text below the organ: its name, and a line for each tool. If there are several organs,
-/// tools beyond their margin have no line. `fading`: for each pair, the step whose contacts are
-/// still shown though they have ended; null: none.
+/// Adds a text below the organ: its name, a line for each tool, and the query time [s] if it is
+/// above 0. If there are several organs, tools beyond their margin have no line. `fading`: for each
+/// pair, the step whose contacts are still shown though they have ended; null: none.
 void add_status(const Scene& scene, const SceneOrgan& organ,
-                const std::vector<const SceneStep*>& fading,
+                const std::vector<const SceneStep*>& fading, double query_sec,
                 visualization_msgs::MarkerArray& picture);
 
 /// Adds the tool at a pose in the frame of the style: its shaft as a capsule, and the shapes of its

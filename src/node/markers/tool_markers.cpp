@@ -84,12 +84,24 @@ void add_marker(Marker marker, MarkerArray& picture) {
 Vector3d add_text(const MarkerStyle& style, const Vector3d& place, double size,
                   const std::string& text, MarkerArray& picture) {
   constexpr double kHeight = 0.036, kSpacing = 0.054;  // Shares of the size.
-  Marker marker = make_marker(style, Marker::TEXT_VIEW_FACING);
-  marker.pose.position = tf2::toMsg(place);
-  marker.scale.z = kHeight * size;
-  marker.text = text;
-  add_marker(std::move(marker), picture);
-  return place - kSpacing * size * Vector3d::UnitZ();
+  constexpr std::size_t kLongest = 80;  // [bytes] The window of scripts/view.py shows as much.
+  Vector3d next = place;
+  for (std::size_t begin = 0; begin < text.size();) {
+    std::size_t end = std::min(text.find('\n', begin), text.size());
+    if (end - begin > kLongest) {
+      std::size_t space = text.rfind(' ', begin + kLongest);
+      if (space == std::string::npos || space <= begin) space = text.find(' ', begin);
+      end = std::min(end, space);
+    }
+    Marker marker = make_marker(style, Marker::TEXT_VIEW_FACING);
+    marker.pose.position = tf2::toMsg(next);
+    marker.scale.z = kHeight * size;
+    marker.text = text.substr(begin, end - begin);
+    add_marker(std::move(marker), picture);
+    next.z() -= kSpacing * size;
+    begin = end + 1;
+  }
+  return next;
 }
 
 void add_line(const MarkerStyle& style, const Vector3d& from, const Vector3d& to, double width,

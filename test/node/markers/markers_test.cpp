@@ -202,7 +202,7 @@ class Painter : public Viewer {
     const auto answer = answer_with({contact_at(1, depth, 0.7, 0.7)});
     Scene scene = scene_with(answer, seconds, organ_);
     const ToolPath path{{0.0, {{0, 0, 1}, {0, 0, 0}}}, {1.0, {{0, 0, 1}, {1, 0, 0}}}};
-    scene.steps = {{scene.time, answer, organ_.mesh->shared_faces(), path}};
+    scene.steps = {{scene.time, answer, organ_.mesh->shared_faces(), path, 42e-6}};
     return scene;
   }
 
@@ -224,7 +224,8 @@ TEST_F(Painter, ShowsTheWholeScene) {
   for (std::size_t i = 0; i < 6; ++i) {
     EXPECT_EQ(point(surface, i), organ_.mesh->triangle(i / 3)[i % 3]) << i;
   }
-  EXPECT_EQ(text_of(shown("status")), "liver: 2 faces\nhook: 1 contact, 4.0 mm deep");
+  EXPECT_EQ(text_of(shown("status")),
+            "liver: 2 faces\nhook: 1 contact, 4.0 mm deep\n0.042 ms a query");
 }
 
 TEST_F(Painter, TouchedFacesAreLiftedAndColouredByDepthAndFadeAfterTheContact) {
@@ -338,6 +339,18 @@ TEST_F(Painter, ALargeSurfaceIsCutAndASmallerOneLeavesNoScraps) {
   EXPECT_EQ(shown("surface/liver").size(), 1u);
 }
 
+TEST_F(Painter, TheTimeOfAQueryChangesOnceASecond) {
+  const auto shown_at = [&](double seconds, double query_sec) {
+    Scene scene = touching(seconds);
+    scene.steps[0].query_sec = query_sec;
+    paint(scene);
+    return shown("status").back().text;
+  };
+  EXPECT_EQ(shown_at(0.0, 2e-6), "0.002 ms a query");
+  EXPECT_EQ(shown_at(0.1, 5e-6), "0.002 ms a query");
+  EXPECT_EQ(shown_at(1.2, 9e-6), "0.007 ms a query");
+}
+
 TEST_F(Viewer, SeesDepthsThatGetDarkerAndAreClamped) {
   const auto brightness = [](const std_msgs::ColorRGBA& colour) {
     return 0.3 * colour.r + 0.6 * colour.g + 0.1 * colour.b;
@@ -380,13 +393,19 @@ TEST_F(Viewer, SeesTheNameOfEachTouchingLinkAtItsDeepestContact) {
       {contact_at(0, 0.1, 0.1, 0.0), contact_at(1, 0.3, 0.2, 0.0), contact_at(1, 0.2, 0.3, 0.0)});
   answer->contacts[2].link = 1;
   answer->links = {"wrist", "jaw"};
-  const Markers names = drawn(scene_with(answer), "names");
+  Markers names = drawn(scene_with(answer), "names");
   EXPECT_EQ(text_of(names), "hook\njaw");  // The shaft has no name of its own.
   for (const Marker& name : names) {
     EXPECT_EQ(name.type, Marker::TEXT_VIEW_FACING);
-    EXPECT_DOUBLE_EQ(name.pose.position.x, name.text == "hook" ? 0.2 : 0.3);
+    EXPECT_DOUBLE_EQ(name.pose.position.x, 0.2) << "names near each other share a text";
     EXPECT_GT(name.pose.position.z, 0.0);
   }
+  answer->contacts[2].on_organ.x = 0.9;
+  names = drawn(scene_with(answer), "names");
+  ASSERT_EQ(names.size(), 2u) << "names that are far from each other have their own texts";
+  EXPECT_EQ(names[0].text, "hook");
+  EXPECT_EQ(names[1].text, "jaw");
+  EXPECT_DOUBLE_EQ(names[1].pose.position.x, 0.9);
 }
 
 TEST_F(Viewer, SeesALineFromToolToOrgan) {
@@ -473,19 +492,29 @@ TEST_F(Viewer, ReadsWhatTheAnswerTells) {
   EXPECT_EQ(shown("status").at(2).header.frame_id, "kidney_frame");
 }
 
-TEST_F(Viewer, SeesTheStatusBelowTheOrgan) {
+TEST_F(Viewer, SeesTheStatusBelowTheOrganInLinesThatFitIntoTheWindow) {
   const auto answer = answer_with({});
-  set_failure(*answer, ContactArray::NO_TRANSFORM, "a reason");
-  const Markers lines = drawn(scene_with(answer), "status");
-  ASSERT_EQ(lines.size(), 2u);
-  EXPECT_EQ(text_of(lines), "liver: 2 faces\nhook: no transform: a reason");
-  for (const Marker& line : lines) {
-    EXPECT_DOUBLE_EQ(line.pose.position.x, 0.5);
-    EXPECT_LT(line.pose.position.z, -0.2 * kSize) << "tools come from above, and would hide it";
+  const std::string reason =
+      "a reason of many words, of which the last one goes on and on behind the edge of a window";
+  set_failure(*answer, ContactArray::NO_TRANSFORM, reason);
+  Scene scene = scene_with(answer);
+  scene.tools = std::make_shared<std::vector<Tool>>(1, shaft_tool(std::string(80, 'x'), 0.02));
+  const Markers lines = drawn(scene, "status");
+  ASSERT_GT(lines.size(), 3u);
+  std::string text;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    text += " " + lines[i].text;
+    // A word that is longer than a line stays whole.
+    const bool has_long_word = lines[i].text.find("xx") != std::string::npos;
+    EXPECT_LE(lines[i].text.size(), has_long_word ? 81u : 80u);
+    EXPECT_DOUBLE_EQ(lines[i].pose.position.x, 0.5);
+    EXPECT_LT(lines[i].pose.position.z, -0.2 * kSize) << "tools come from above, and would hide it";
+    if (i == 0) continue;
+    const double lower = lines[i - 1].pose.position.z - lines[i].pose.position.z;
+    EXPECT_GT(lower, 1.2 * lines[i].scale.z);
+    EXPECT_LT(lower, 2.0 * lines[i].scale.z);
   }
-  const double lower = lines[0].pose.position.z - lines[1].pose.position.z;
-  EXPECT_GT(lower, 1.2 * lines[1].scale.z);
-  EXPECT_LT(lower, 2.0 * lines[1].scale.z);
+  EXPECT_EQ(text, " liver: 2 faces " + std::string(80, 'x') + ": no transform: " + reason);
 }
 
 TEST_F(Viewer, ReadsOnlyOfNearToolsIfThereAreSeveralOrgans) {
