@@ -92,8 +92,7 @@ class ContactWatch {
       violations_.add(fault.rule,
                       concatenate(topic.name, ", organ '", plain_text(answer.organ, kLongestName),
                                   "', tool '", plain_text(answer.tool, kLongestName), "', stamp ",
-                                  answer.header.stamp, ", ", fault.rule, ": ", fault.sentence),
-                      std::chrono::steady_clock::now(), fault.places);
+                                  answer.header.stamp, ", ", fault.rule, ": ", fault.sentence));
     }
   }
 

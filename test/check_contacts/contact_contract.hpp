@@ -17,9 +17,8 @@ namespace organ_collision {
 
 /// A rule of the contract that an answer breaks.
 struct Fault {
-  std::string rule;          ///< one of a few fixed texts, for example "unit normal"
-  std::string sentence;      ///< the first place that breaks it, the value, and what is legal
-  std::uint64_t places = 1;  ///< how many places of the answer break it
+  std::string rule;      ///< one of a few fixed texts, for example "unit normal"
+  std::string sentence;  ///< the first place that breaks it, the value, and what is legal
 };
 
 /// All rules that one answer breaks, each once.
@@ -28,13 +27,9 @@ class Faults {
   /// `parts`: the sentence. It is only put together if the rule is broken for the first time.
   template <typename... Parts>
   void add(const char* rule, const Parts&... parts) {
-    const auto known = std::find_if(faults_.begin(), faults_.end(),
-                                    [&](const Fault& fault) { return fault.rule == rule; });
-    if (known != faults_.end()) {
-      ++known->places;
-    } else {
-      faults_.push_back({rule, concatenate(parts...)});
-    }
+    const bool is_known = std::any_of(faults_.begin(), faults_.end(),
+                                      [&](const Fault& fault) { return fault.rule == rule; });
+    if (!is_known) faults_.push_back({rule, concatenate(parts...)});
   }
 
   bool empty() const { return faults_.empty(); }

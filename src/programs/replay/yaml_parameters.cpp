@@ -103,8 +103,10 @@ YamlParameters::YamlParameters(const std::string& file, const std::string& node)
   if (group && group->getType() == XmlRpcValue::TypeStruct) node_ = without_slash(node);
 }
 
+const XmlRpcValue& YamlParameters::group() const { return *find(tree_, node_); }
+
 NodeParameters YamlParameters::node_parameters() const {
-  const XmlRpcValue& group = *find(tree_, node_);
+  const XmlRpcValue& group = this->group();
   NodeParameters parameters = parse_parameters<NodeParameters>(group);
   if (!node_.empty()) return parameters;
   // The descriptions of robots stand beside the node's parameters. They are no misspelt parameters.

@@ -15,7 +15,9 @@ class YamlParameters {
   /// the node has its full name. Throws InputError.
   YamlParameters(const std::string& file, const std::string& node);
 
-  /// The parameters of the node, as they stand in the file. Throws ParameterError.
+  /// The parameters of the node, as they stand in the file.
+  const XmlRpc::XmlRpcValue& group() const;
+  /// Throws ParameterError.
   NodeParameters node_parameters() const;
   /// The value of a text parameter, for example robot_description. It is searched in the node's
   /// namespace and upwards from there. Throws ToolError.

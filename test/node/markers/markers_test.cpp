@@ -548,7 +548,7 @@ Tool tool_of(const LinkPart& part) {
 }
 
 SceneStep step(double seconds, const ToolPath& path) {
-  return {at(seconds), nullptr, nullptr, path};
+  return {at(seconds), nullptr, nullptr, path, 0.0};
 }
 
 const Tool kHook = shaft_tool("hook", 0.25);
