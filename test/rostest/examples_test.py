@@ -103,9 +103,8 @@ class ExamplesTest(LaunchCase, NodeStarter):
             self.check_mesh_adapter(rospy.get_param('/organ_mesh_adapter/organs'))
 
     def test_two_hosts(self):
-        """Both on this one. The simulators and the nodes are started apart, as on two hosts."""
-        path = 'examples/two_hosts.launch'
-        with self.launched(path, 'nodes:=false'), self.launched(path, 'simulators:=false'):
+        """Both on this one."""
+        with self.launched('examples/two_hosts.launch'):
             for node, organ, tool in (('/liver_collision', 'liver', 'stabber'),
                                       ('/sheet_collision', 'tissue', 'probe')):
                 log = ContactLog(node + '/contacts')
