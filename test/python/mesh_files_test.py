@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""What read_mesh gives for the files that 3D Slicer, ParaView, MeshLab, CAD programs and others write. query_offline,
-own_mesh.py and the mesh of a URDF have the same reader; test/programs/mesh_reader_test.cpp has the details of formats."""
+"""The same file gives the same vertices and faces, or the same refusal, in read_mesh, query_offline, own_mesh.py and as a
+mesh of a URDF. The files are those that 3D Slicer, ParaView, MeshLab, CAD programs and others write."""
 
 import csv
 import io
@@ -22,6 +22,7 @@ CUBE_FACES = np.array([[0, 2, 3], [0, 3, 1], [4, 5, 7], [4, 7, 6], [0, 1, 5], [0
 HAS_VTK = subprocess.call(['/usr/bin/python3', '-c', 'import vtkmodules.vtkIOXML'], stderr=subprocess.DEVNULL) == 0
 CUBES = ['c.vtp', 'c1.off', 'cont.obj', 'edges.ply', 'fcol.ply', 'poly3.vtk', 'slicer51.vtk', 'ushort.ply',
          'vertex_index.ply', 'wedge.ply']
+OF_OWN_MESH = ('cont.obj', 'upper.STL', 'slicer51.vtk', 'bcut.stl')  # It loads slowly, and calls read_mesh.
 DAE = """<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset/>
 <library_geometries><geometry id="g"><mesh><source id="p"><float_array id="a" count="9">0 0 0 0.5 0 0 0 0.25 0</float_array>
 <technique_common><accessor source="#a" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
@@ -91,13 +92,16 @@ class MeshFilesTest(unittest.TestCase):
         return shape.vertices.reshape(-1, 3), shape.triangles.reshape(-1, 3)
 
     def offline(self, path, points):
-        """For each point, the faces that a small ball there touches, or what query_offline prints as an error."""
+        """For each point, the sorted faces that a small ball there touches, or what query_offline prints as an error."""
         lines = ['%d,static,%s,,,,%s,1e-6' % (i, *2 * [','.join(map(repr, map(float, point)))]) for i, point in enumerate(points)]
         self.path('motions.csv', '\n'.join(lines) + '\n')
         done = self.run_program('QUERY_OFFLINE', '--mesh', path, '--motions', str(self.folder / 'motions.csv'))
         if done.returncode != 0:
             return done.stderr.decode()
-        return [(int(row['query']), int(row['face'])) for row in csv.DictReader(done.stdout.decode().splitlines())]
+        touched = [[] for _ in points]
+        for row in csv.DictReader(done.stdout.decode().splitlines()):
+            touched[int(row['query'])].append(int(row['face']))
+        return touched
 
     def own_mesh(self, path, *options, lines=1):
         """The first lines that own_mesh.py prints, for which it needs no ROS master."""
@@ -109,17 +113,30 @@ class MeshFilesTest(unittest.TestCase):
         return text
 
     def assert_mesh(self, path, vertices, faces, name):
-        found_vertices, found_faces = read_mesh(path)
-        np.testing.assert_array_equal(np.float32(found_vertices), np.float32(vertices), err_msg=name)
-        np.testing.assert_array_equal(found_faces, faces, err_msg=name)
+        for found_vertices, found_faces in read_mesh(path), self.urdf_mesh(path):
+            np.testing.assert_array_equal(found_vertices.astype('f'), np.float32(vertices), err_msg=name)
+            np.testing.assert_array_equal(found_faces, faces, err_msg=name)
+        # Each vertex touches its faces, and the centre of each face only this face.
+        vertices, faces = np.array(vertices), np.array(faces)
+        expected = [sorted(np.flatnonzero((faces == vertex).any(axis=1))) for vertex in range(len(vertices))]
+        expected += [[face] for face in range(len(faces))]
+        self.assertEqual(self.offline(path, [*vertices, *vertices[faces].mean(axis=1)]), expected, name)
+        if name in OF_OWN_MESH:
+            self.assertTrue(self.own_mesh(path).startswith(
+                '%d vertices, %d faces, ' % (len(vertices), len(faces))), name)
 
-    def refusal(self, path):
+    def assert_refused(self, path, why, name):
         with self.assertRaises(MeshFileError) as caught:
             read_mesh(path)
-        self.assertRegex(str(caught.exception), r'\A%s:(\d+:)? ' % path)
-        return str(caught.exception)
+        text = str(caught.exception)
+        self.assertRegex(text, r'\A%s:(\d+:)? ' % path)
+        self.assertIn(why, text, name)
+        self.assertEqual(self.urdf_mesh(path), "link 'l': mesh " + text, name)
+        self.assertEqual(self.offline(path, [[0, 0, 0]]), text + '\n', name)
+        if name in OF_OWN_MESH:
+            self.assertEqual(self.own_mesh(path), 'own_mesh.py: %s\n' % text, name)
 
-    def test_files_of_many_programs(self):
+    def test_the_same_mesh(self):
         rows = [(name, None, CUBE, CUBE_FACES) for name in CUBES]
         rows += [(name, content, vertices, faces) for name, (content, vertices, faces) in OTHERS.items()]
         for name, content, vertices, faces in rows:
@@ -127,7 +144,7 @@ class MeshFilesTest(unittest.TestCase):
                 if HAS_VTK or '.vt' not in name:
                     self.assert_mesh(self.path(name, content), vertices, faces, name)
                 else:
-                    self.assertIn('needs VTK: install the package python3-vtk9', self.refusal(self.path(name, content)))
+                    self.assert_refused(self.path(name, content), 'needs VTK: install the package python3-vtk9', name)
 
     def test_the_corners_of_stl_become_shared_vertices(self):
         for name in ('bextra.stl', 'bsolid.stl', 'upper.STL'):
@@ -136,26 +153,22 @@ class MeshFilesTest(unittest.TestCase):
                 vertices, faces = read_mesh(path)
                 self.assertEqual(len(vertices), 8)
                 np.testing.assert_array_equal(np.float32(vertices[faces]), np.float32(CUBE[CUBE_FACES]))
+                self.assert_mesh(path, vertices, faces, name)
 
-    def test_refusals(self):
+    def test_the_same_refusal(self):
         for name, (content, why) in REFUSED.items():
             with self.subTest(name):
-                self.assertIn(why if HAS_VTK or '.vt' not in name else 'python3-vtk9', self.refusal(self.path(name, content)))
+                self.assert_refused(self.path(name, content), why if HAS_VTK or '.vt' not in name else 'python3-vtk9', name)
 
-    def test_other_programs_have_the_same_reader(self):
-        for name in ('cont.obj', 'upper.STL', *['slicer51.vtk'] * HAS_VTK):
+    def test_concave_polygons_have_no_faces_in_the_void(self):
+        for name, area, beside in ('L.obj', 75e-4, [0.06, 0.06, 0]), ('dart.obj', 42.5e-4, [0.05, 0.008, 0]):
             path = self.path(name)
             vertices, faces = read_mesh(path)
-            for found, right in zip(self.urdf_mesh(path), (vertices, faces)):
-                np.testing.assert_array_equal(found, right, err_msg=name)
-            centres = vertices[faces].mean(axis=1)
-            self.assertEqual(self.offline(path, centres), [(face, face) for face in range(len(faces))], name)
-            self.assertTrue(self.own_mesh(path).startswith('%d vertices, %d faces, ' % (len(vertices), len(faces))), name)
-        path = self.path('bcut.stl')
-        text = self.refusal(path)
-        self.assertEqual(self.urdf_mesh(path), "link 'l': mesh " + text)
-        self.assertEqual(self.offline(path, [[0, 0, 0]]), text + '\n')
-        self.assertEqual(self.own_mesh(path), 'own_mesh.py: %s\n' % text)
+            a, b, c = (vertices[faces[:, i]] for i in range(3))
+            normals = np.cross(b - a, c - a)
+            self.assertTrue((normals[:, 2] > 0).all(), name)
+            self.assertAlmostEqual(normals[:, 2].sum() / 2, area, delta=1e-12)
+            self.assertEqual(self.offline(path, [beside]), [[]])
 
     def test_millimetres_and_axes_of_slicer_become_those_of_ros(self):
         path = self.path('vertex_index.ply')
