@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <boost/make_shared.hpp>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -116,6 +117,46 @@ TEST_F(ToolProxyTest, WithoutAnAnswerTheForceFadesAndComesBack) {
   EXPECT_FALSE(proxy.is_fading());
 }
 
+/// What makes a force jump, on a tool that presses with `whole` newtons.
+TEST_F(ToolProxyTest, NoEventMakesTheForceChangeFasterThanItsLimit) {
+  const struct {
+    const char* name;
+    std::function<void()> happens;
+    double height;  ///< [m] of the hand from then on
+    bool is_free;   ///< then
+  } events[] = {
+      {"the hand jumps", [] {}, 0.2, true},
+      {"the stiffness changes", [&] { parameters_.stiffness = 3000.0; }, -0.01, false},
+      {"the organ's frame jumps", [&] { scene_.organs[0].T_organ_proxy.translation().z() = 0.1; },
+       -0.01, true},
+      {"the organ is removed", [&] { scene_.organs.clear(), scene_.sources.clear(); }, -0.01, true},
+      {"the hand slips far along the tissue", [] {}, -0.011, false},
+  };
+  for (const auto& event : events) {
+    SCOPED_TRACE(event.name);
+    const HapticProxyParameters before = parameters_;
+    const ProxyScene scene = scene_;
+    ToolProxy proxy(tool_, parameters_);
+    press(proxy, -0.01);
+    parameters_.max_force_rate = 400.0;
+    double last = spring(-0.01);
+    event.happens();
+    proxy.update_settings();
+    int ticks = 0;
+    bool is_fading = true;
+    for (; is_fading && ticks < 200; ++ticks) {
+      const ProxyReport report = follow(proxy, event.height, 1.0);
+      EXPECT_LE(std::abs(force(report) - last), 0.4 + kTolerance) << "tick " << ticks;
+      last = force(report);
+      is_fading = report.is_fading;
+    }
+    EXPECT_LT(ticks, 200);
+    EXPECT_EQ(last == 0.0, event.is_free) << "not fading, and free, means no force";
+    parameters_ = before;
+    scene_ = scene;
+  }
+}
+
 TEST_F(ToolProxyTest, AForceMovesWithItsFrame) {
   ToolProxy proxy(tool_, parameters_);
   press(proxy, -0.01);
@@ -163,6 +204,33 @@ TEST_F(ToolProxyTest, WhenTheProxyIsPlacedAnewTheReasonIsTold) {
   const ProxyReport jumped = follow(proxy, 0.2, 1.0);
   EXPECT_TRUE(jumped.answer->is_placed_anew);
   EXPECT_NE(jumped.message, "");
+}
+
+TEST_F(ToolProxyTest, LargeForcesAreClippedWithTheirTorqueAndTheForcesOnTheTissue) {
+  parameters_.max_force = 0.5;
+  ToolProxy proxy(tool_, parameters_);
+  press(proxy, -0.02);
+  const ProxyReport report = follow(proxy, -0.02);
+  EXPECT_STREQ(report.clipped_by, "max_force");
+  EXPECT_NEAR(force(report), 0.5, 1e-9);
+  EXPECT_TRUE(torque_of(report.forces).isZero(0.0));
+  EXPECT_NEAR(report.forces[0].on_faces[0].force.z(), 0.5, kTolerance);
+  for (int tick = 0; tick < 5; ++tick) follow(proxy, 0.02);
+  EXPECT_EQ(follow(proxy, 0.02).clipped_by, nullptr);
+}
+
+TEST_F(ToolProxyTest, TheTorqueOnAFreeToolIsClippedWithTheForce) {
+  tool_.parameters.freedom = ProxyFreedom::kFree;
+  parameters_.max_torque = 0.05;
+  ToolProxy proxy(tool_, parameters_);
+  press(proxy, -0.02);
+  const ProxyReport report = follow(proxy, -0.02);
+  ASSERT_STREQ(report.clipped_by, "max_torque");
+  const ProxyAnswer& answer = *report.answer;
+  EXPECT_NEAR(torque_of(report.forces).norm(), 0.05, 1e-9);
+  const double share = 0.05 / (parameters_.stiffness * answer.twist.norm());
+  const Vector3d force = share * parameters_.stiffness * answer.pull;
+  EXPECT_LT((force_of(report.forces) - force).norm(), 1e-3);
 }
 
 TEST_F(ToolProxyTest, IfTheProxyHasNoPlaceThereIsNoAnswerAndTheForceFades) {
