@@ -8,12 +8,14 @@ import sys
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 import genpy.dynamic
 from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, Transform, TransformStamped
+from organ_collision.msg import ContactArray
 import rospy
 from rosgraph_msgs.msg import Log as LogLine
 import rostest
 from tf2_msgs.msg import TFMessage
 
-from support.node_client import Log, is_heard, wait_until
+from support import scenes
+from support.node_client import Log, NodeClient, is_heard, wait_until
 from support.processes import NodeStarter
 
 ADAPTER = '/poses'
@@ -214,6 +216,24 @@ class PoseAdapterTest(NodeStarter):
         body.header.stamp = stamp
         fill(body.pose, (x, 0, 0))
         return body
+
+    def test_shapes_are_answered_while_a_tracker_rests(self):
+        """A tool sends one pose and then rests. Shapes get no transform, until the pose is repeated."""
+        tool = {'name': 'stylus', 'trocar_frame': 'tissue', 'tip_frame': 'tip', 'radius': 0.005,
+                'tip_pose_topic': '/resting_tip'}
+        self.start('/repeated', {'tools': [tool]})
+        node, sheet = NodeClient('/repeated', frame='tissue'), scenes.sheet(0.2, 1, 0.05)
+        node.bring('sheet', sheet, rospy.Time.now())
+
+        def answers(status):
+            rospy.sleep(0.02)
+            node.send_vertices('sheet', sheet, rospy.Time.now())
+            return node.contacts.of('sheet', 'stylus', status=status)
+
+        wait_until(lambda: answers(ContactArray.NO_TRANSFORM), 'an answer NO_TRANSFORM')
+        self.publish('/sim/resting', pose((0.01, 0.0, 0.047), frame='tissue'))
+        found = wait_until(lambda: len(answers(ContactArray.OK)) >= 20 and answers(ContactArray.OK), 'answers OK')
+        self.assertTrue(all(answer.contacts for answer in found))
 
     def test_parameters_that_are_refused(self):
         good = {'topic': 'a', 'child_frame': 'b'}
