@@ -219,36 +219,6 @@ class ExamplesTest(LaunchCase, NodeStarter):
                 self.assertEqual((on_vertices.organ, on_vertices.tool, on_vertices.topology), ('tissue', 'probe', 0))
             self.assertGreater(strongest, 0.3)
 
-    def test_repeat_pose(self):
-        """A tool sends one pose and then rests. Shapes get no transform, until repeat_pose.py repeats this pose."""
-        tool = {'name': 'stylus', 'trocar_frame': 'tissue', 'tip_frame': 'tip', 'radius': 0.005,
-                'tip_pose_topic': '/stylus/pose_repeated'}
-        node_process = self.start('/repeated', {'tools': [tool]})
-        node, sheet = NodeClient('/repeated', frame='tissue'), scenes.sheet(0.2, 1, 0.05)
-        poses = rospy.Publisher('/stylus/pose', PoseStamped, queue_size=1, latch=True)
-        repeated = Log('/stylus/pose_repeated', PoseStamped)
-        node.bring('sheet', sheet, rospy.Time.now())
-        pose = pose_stamped('tissue', (0.01, 0.0, 0.047), rospy.Time.now())
-        poses.publish(pose)
-
-        def answers(status):
-            rospy.sleep(0.02)
-            node.send_vertices('sheet', sheet, rospy.Time.now())
-            return node.contacts.of('sheet', 'stylus', status=status)
-
-        wait_until(lambda: answers(ContactArray.NO_TRANSFORM), 'an answer NO_TRANSFORM')
-        repeater = subprocess.Popen([program('repeat_pose.py'), '/stylus/pose', '/stylus/pose_repeated'])
-        try:
-            found = wait_until(lambda: len(answers(ContactArray.OK)) >= 20 and answers(ContactArray.OK), 'answers OK')
-        finally:
-            repeater.send_signal(signal.SIGINT)
-            self.assertEqual(repeater.wait(LIMIT), 0)
-        self.assertTrue(all(answer.contacts for answer in found))
-        stamps = [message.header.stamp for message in repeated.messages]
-        self.assertEqual(stamps, sorted(set(stamps)))
-        self.assertTrue(all(message.pose == pose.pose for message in repeated.messages))
-        self.stop(node_process)
-
 
 if __name__ == '__main__':
     rospy.init_node('examples_test')

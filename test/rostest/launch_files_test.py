@@ -8,15 +8,17 @@ import subprocess
 import sys
 import tempfile
 
+from geometry_msgs.msg import PoseStamped
 from organ_collision.msg import ContactArray, OrganMesh, ProxyState, VertexForces
 import roslib.packages
 import rospy
 import rostest
+from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
 import yaml
 
 from support.launch_case import FrameLog, LaunchCase, PACKAGE, files
-from support.node_client import LIMIT, Log, NodeClient, wait_until
+from support.node_client import LIMIT, Log, NodeClient, pose_stamped, wait_until
 from support.processes import NodeStarter, program
 
 HANDS = {'config/demo_hands.yaml', 'examples/haptics.yaml', 'examples/lockstep.yaml'}  # The tools of haptic_proxy.
@@ -37,6 +39,7 @@ class LaunchFilesTest(LaunchCase, NodeStarter):
         checks = {'organ_collision': lambda: self.check_collision_node('/organ_collision'),
                   'nodelet': lambda: self.check_collision_node('/organ_collision', '/organ_collision_manager'),
                   'demo': self.check_demo, 'view': self.check_view,
+                  'pose_adapter': lambda: self.check_pose_adapter(rospy.get_param('/pose_adapter/sources')),
                   'haptic_proxy': lambda: self.check_hands('/haptic_proxy', rospy.get_param('/haptic_proxy/tools')),
                   'organ_mesh_adapter': lambda: self.check_mesh_adapter(rospy.get_param('/organ_mesh_adapter/organs'))}
         self.assertEqual({'launch/%s.launch' % name for name in checks}, files('launch', '.launch'))
@@ -50,6 +53,17 @@ class LaunchFilesTest(LaunchCase, NodeStarter):
         """The view listens to a publisher that was there before it, so its call that registers the subscriber has
         ended. It publishes nothing, so it gets no row in FIRST_MESSAGES."""
         wait_until(lambda: self.markers.get_num_connections() > 0, 'the subscriber of the markers')
+
+    def check_pose_adapter(self, sources):
+        """A pose on each topic reaches TF, or the topic of poses."""
+        for source in sources:
+            child = source.get('child_frame')
+            out = Log('/tf' if child else source['pose_topic'], TFMessage if child else PoseStamped)
+            publisher = rospy.Publisher(source['topic'], PoseStamped, queue_size=1)
+            pose = pose_stamped(source.get('frame', 'world'), (0, 0, 1), rospy.Time.now())
+            came = lambda m: child in (t.child_frame_id for t in m.transforms) if child else m.pose.position.z > 0
+            wait_until(lambda: publisher.publish(pose) or rospy.sleep(0.05) or out.last(came), source['topic'])
+            publisher.unregister()
 
     def check_hands(self, name, tools):
         """haptic_proxy knows the tools, and they have no organ."""
@@ -126,12 +140,15 @@ class LaunchFilesTest(LaunchCase, NodeStarter):
             elif 'tools' in parameters:
                 process = self.start(name, parameters)
                 self.check_collision_node(name)
+            elif 'sources' in parameters:
+                process = self.start(name, parameters, 'pose_adapter.py')
+                self.check_pose_adapter(parameters['sources'])
             else:
                 process = self.start(name, dict(parameters, collision_node=name + '_node'), 'organ_mesh_adapter')
                 self.check_mesh_adapter(parameters['organs'], name + '_node')
             self.assertNotIn('is no parameter', self.stop(process), path)
             started.add(path)
-        self.assertLessEqual({'config/tools.yaml', 'config/organs.yaml', *HANDS}, started)
+        self.assertLessEqual({'config/tools.yaml', 'config/organs.yaml', 'config/poses.yaml', *HANDS}, started)
 
 
 if __name__ == '__main__':
