@@ -15,6 +15,7 @@ inline constexpr char kOrganName[] = "name";
 inline constexpr char kFrame[] = "frame";
 inline constexpr char kTopic[] = "topic";
 inline constexpr char kVerticesTopic[] = "vertices_topic";
+inline constexpr char kScale[] = "scale";
 
 }  // namespace organ_collision::names
 
@@ -26,6 +27,7 @@ struct OrganParameters {
   std::string topic;
   std::string frame;           ///< empty: the frame that the messages name
   std::string vertices_topic;  ///< empty: none
+  double scale = 1.0;          ///< [m] length of the sender's unit
 };
 
 /// The parameters of organ_mesh_adapter, with the documented defaults.
@@ -50,12 +52,12 @@ inline std::string graph_name(const ParameterGroup& group, const char* name) {
 
 inline void parse_organs(const ParameterGroup& all, MeshAdapterParameters& parameters) {
   const XmlRpc::XmlRpcValue& list =
-      all.list("organs", "groups of name, topic and, if needed, frame and vertices_topic");
+      all.list("organs", "groups of name, topic and, if needed, frame, vertices_topic and scale");
   std::set<std::string> organs, topics;
   for (int i = 0; i < list.size(); ++i) {
     const ParameterGroup group(
         "~organs[" + std::to_string(i) + "]", list[i],
-        {names::kOrganName, names::kTopic, names::kFrame, names::kVerticesTopic});
+        {names::kOrganName, names::kTopic, names::kFrame, names::kVerticesTopic, names::kScale});
     OrganParameters organ;
     organ.name = group.text(names::kOrganName);
     group.check_name(names::kOrganName, organ.name);
@@ -64,6 +66,7 @@ inline void parse_organs(const ParameterGroup& all, MeshAdapterParameters& param
     if (group.has(names::kVerticesTopic)) {
       organ.vertices_topic = graph_name(group, names::kVerticesTopic);
     }
+    organ.scale = group.number(names::kScale, organ.scale, kPositive);
     if (!organs.insert(organ.name).second) {
       group.refuse(names::kOrganName, "must be unique among the organs");
     }
@@ -82,8 +85,8 @@ inline ParameterTable table_of(MeshAdapterParameters& p) {
   ParameterTable t;
   t.other(
       "organs", "required", [&p](const ParameterGroup& all) { parse_organs(all, p); },
-      "list of organs. Each has name and topic and, if needed, vertices_topic, and frame, which "
-      "replaces the frame that the messages name");
+      "list of organs. Each has name and topic and, if needed, vertices_topic; frame, which "
+      "replaces the frame that the messages name; and scale, the sender's unit in metres");
   t.other(
       "collision_node", p.collision_node,
       [&p](const ParameterGroup& all) {

@@ -78,6 +78,7 @@ void OrganSource::take_surface(const ShapeShifter& message, ros::Time arrival) {
         message_of<OrganMesh>(parameters_.name, last_topology_, surface.frame, surface.stamp));
   } else {
     surface.frame = frame_or_given(surface.frame);
+    scale(surface.vertices);
     const bool has_known_triangles = mesh_ && !has_restarted_ &&
                                      surface.vertices.size() == mesh_->vertices().size() &&
                                      mesh_->has_triangles(surface.triangles);
@@ -96,6 +97,7 @@ void OrganSource::take_vertices(const ShapeShifter& message, ros::Time arrival) 
   if (!is<sensor_msgs::PointCloud2>(message)) refuse_type(message, "sensor_msgs/PointCloud2");
   const auto cloud = instance<sensor_msgs::PointCloud2>(message);
   std::vector<float> vertices = read_points(*cloud);
+  scale(vertices);
   send_vertices(frame_or_given(cloud->header.frame_id), stamp_or(arrival, cloud->header.stamp),
                 std::move(vertices));
 }
@@ -160,6 +162,13 @@ ReceivedSurface OrganSource::read(const ShapeShifter& message) {
     return marker_reader_.read(*instance<visualization_msgs::Marker>(message));
   }
   refuse_type(message, "shape_msgs/Mesh, pcl_msgs/PolygonMesh or visualization_msgs/Marker");
+}
+
+/// From the sender's unit to metres. Throws MessageError.
+void OrganSource::scale(std::vector<float>& vertices) const {
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    vertices[i] = coordinate(parameters_.scale * vertices[i], i / 3, i % 3);
+  }
 }
 
 /// The parameter `frame` overrides the frame that the messages name. The log says so once.

@@ -59,6 +59,7 @@ class OrganSource {
  private:
   ReceivedSurface read(const topic_tools::ShapeShifter& message);
   std::string frame_or_given(const std::string& named);
+  void scale(std::vector<float>& vertices) const;
   void send_mesh(std::uint32_t topology, ReceivedSurface&& surface);
   void send_vertices(const std::string& frame, ros::Time stamp, std::vector<float> vertices);
 

@@ -75,14 +75,6 @@ void check_sizes(const PointCloud2& cloud) {
                      "; coordinates must be finite 32-bit floats, in metres");
 }
 
-/// A coordinate as a 32-bit float. Throws MessageError if it is NaN, infinite, or too large for a
-/// float.
-float coordinate(double value, std::size_t vertex, std::size_t axis) {
-  const auto rounded = static_cast<float>(value);
-  if (!std::isfinite(rounded)) refuse(value, vertex, axis);
-  return rounded;
-}
-
 /// Copies one field of all points to an axis of the vertices.
 template <typename Number, order kOrder>
 void copy(const PointCloud2& cloud, std::size_t offset, std::size_t axis,
@@ -151,6 +143,12 @@ std::vector<float> placed(const std::vector<geometry_msgs::Point>& points,
 }
 
 }  // namespace
+
+float coordinate(double value, std::size_t vertex, std::size_t axis) {
+  const auto rounded = static_cast<float>(value);
+  if (!std::isfinite(rounded)) refuse(value, vertex, axis);
+  return rounded;
+}
 
 std::vector<float> read_points(const PointCloud2& cloud) {
   if (cloud.width == 0 || cloud.height == 0) {

@@ -41,6 +41,10 @@ class MessageError : public std::runtime_error {
   std::string reason_;
 };
 
+/// The coordinate of a vertex along an axis (0: x) as a 32-bit float. Throws MessageError if it is
+/// NaN, infinite, or too large for a float.
+float coordinate(double value, std::size_t vertex, std::size_t axis);
+
 /// The fields x, y and z of all points, row by row, as x y z x y z ... The fields may lie anywhere
 /// in a point and in any order. They may be float32 or float64, in little or big endian. Other
 /// fields and padding are skipped. The numbers are rounded to 32-bit floats. Throws MessageError.

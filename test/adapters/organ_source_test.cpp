@@ -114,9 +114,9 @@ class OrganSourceTest : public testing::Test {
     expect(message, revision, grid.vertices);
     EXPECT_EQ(message->triangles, grid.triangles());
   }
-  /// A source for which the parameter `frame` is given.
-  OrganSource source(const std::string& frame) {
-    return {{"organ", "topic", frame, "points"},
+  /// A source for which the parameters `frame` and `scale` are given.
+  OrganSource source(const std::string& frame, double scale = 1.0) {
+    return {{"organ", "topic", frame, "points", scale},
             kLastTopology,
             {[this](const OrganMeshPtr& message) {
                removals_ += message->vertices.empty() ? 1 : 0;
@@ -248,6 +248,29 @@ TEST_F(OrganSourceTest, TakesEachTypeAndTheMessagesFrameUnlessTheParameterNamesO
   expect(vertices_, 2, moved_.vertices);
   take(shape_msgs::Mesh());
   EXPECT_TRUE(mesh_->triangles.empty());
+}
+
+TEST_F(OrganSourceTest, TheSendersUnitBecomesMetresInAllMessages) {
+  const auto in_quarters = [](GridSurface grid) {
+    for (float& coordinate : grid.vertices) coordinate *= 4.0f;
+    return grid;
+  };
+  source_ = source("liver", 0.25);
+  send(in_quarters(grid_));
+  expect_mesh(mesh_, 1, grid_);
+  send_vertices(in_quarters(moved_).vertices);
+  expect(vertices_, 1, moved_.vertices);
+  expect_mesh(source_.mesh(), 1, moved_);
+  const GridSurface soup = unwelded(grid_);
+  take(marker(in_quarters(soup), "liver"));
+  stamp_ = kArrival;
+  expect_mesh(mesh_, 2, soup);
+
+  source_ = source("liver", 1e30);
+  send(GridSurface());
+  GridSurface huge = grid_;
+  huge.vertices[5] = 1e10f;
+  expect_words(refusal([&] { send(huge); }), {"not finite: ", "z of vertex 1 is 1e+40"});
 }
 
 TEST_F(OrganSourceTest, RefusesOtherTypesAndWhatIsNotAsItsTypeSays) {

@@ -127,6 +127,10 @@ TEST(HapticParameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
       {"topic", "sim/liver_points", {"unique"}},
       {"vertices_topic", "sim/spleen", {"sim/spleen", "unique"}},
       {"vertices_topic", "", {"not empty"}},
+      {"scale", 0, {"'0'", "above 0"}},
+      {"scale", -0.001, {"above 0"}},
+      {"scale", kUnlimited, {"above 0"}},
+      {"scale", "1e-3", {"without quotes"}},
   };
   for (const auto& row : rows) {
     XmlRpcValue organs;
