@@ -168,24 +168,23 @@ TEST_F(DiagnosticsTest, WhatStepsAndServicesCount) {
   counters.service_times.add(0.003);
   counters.motions = 7;
   counters.batches = 1;
-  const Values shown = of_queries(),
-               expected = {{"GL version", pipeline.workers.gl_version()},
-                           {"queries", "1"},
-                           {"query time, median [us]", "2000"},
-                           {"query time, worst [us]", "2000"},
-                           {"motion samples cut", "900"},
-                           {"transforms after their step", "1"},
-                           {"poses merged into later ones", "1"},
-                           {"shapes due", "6"},
-                           {"shapes answered", "2"},
-                           {"shapes superseded by newer ones", "2"},
-                           {"shapes forgotten before their step", "0"},
-                           {"shapes waiting", "2"},
-                           {"answers published", "5"},
-                           {"service queries", "1"},
-                           {"service query time, median [us]", "3000"},
-                           {"batches", "1"},
-                           {"motions of batches", "7"}};
+  const Values shown = of_queries(), expected = {{"GL version", pipeline.workers.gl_version()},
+                                                 {"queries", "1"},
+                                                 {"query time, median [us]", "2000"},
+                                                 {"query time, worst [us]", "2000"},
+                                                 {"motion samples cut", "900"},
+                                                 {"transforms after their step", "1"},
+                                                 {"poses merged into later ones", "1"},
+                                                 {"shapes due", "6"},
+                                                 {"shapes answered", "2"},
+                                                 {"shapes superseded by newer ones", "2"},
+                                                 {"shapes forgotten before their step", "0"},
+                                                 {"shapes waiting", "2"},
+                                                 {"answers published", "5"},
+                                                 {"service queries", "1"},
+                                                 {"service query time, median [us]", "3000"},
+                                                 {"batches", "1"},
+                                                 {"motions of batches", "7"}};
   for (const auto& [key, value] : expected) EXPECT_EQ(shown.at(key), value) << key;
   EXPECT_EQ(status.level, DiagnosticStatus::OK);
 }
