@@ -22,7 +22,7 @@ struct StepCounts {
   std::uint64_t poses_merged = 0;  ///< poses that share a step with an earlier pose
   std::uint64_t ticks_merged = 0;  ///< ticks that share a step with an earlier tick
   std::uint64_t samples_cut = 0;   ///< samples of motion, dropped because of motion_samples_max
-  PickCounts picked;  ///< the faces that the steps looked at one by one
+  PickCounts picked;               ///< the faces that the steps looked at one by one
 };
 
 /// Notices when the steps of a node take so long that it falls behind its inputs: the poses, ticks
