@@ -52,6 +52,23 @@ REFUSED = {
     'bcut.stl': (None, 'its header counts 12 triangles, for which it must have 684 bytes; the file has 664 bytes, as for 11 triangles'),
 }
 
+# Writes what a segmentation becomes: a closed surface with normals, in millimetres.
+SEGMENTATION = """
+import sys
+from vtkmodules.vtkFiltersSources import vtkSphereSource
+from vtkmodules.vtkIOLegacy import vtkPolyDataWriter
+ball, writer = vtkSphereSource(), vtkPolyDataWriter()
+ball.SetCenter(20, 50, 30)
+ball.SetRadius(30)
+ball.SetThetaResolution(1000)
+ball.SetPhiResolution(502)
+writer.SetInputConnection(ball.GetOutputPort())
+writer.SetFileName(sys.argv[1])
+writer.SetHeader('3D Slicer output. SPACE=LPS')
+writer.SetFileTypeToBinary()
+writer.Write()
+"""
+
 
 def volume(corners):
     a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
@@ -175,6 +192,18 @@ class MeshFilesTest(unittest.TestCase):
         vertices, faces = read_mesh(path, scale=0.001, lps=True)
         np.testing.assert_allclose(vertices, CUBE * [-0.001, -0.001, 0.001])
         self.assertAlmostEqual(volume(vertices[faces]), 1e-12, delta=1e-18)
+
+    @unittest.skipUnless(HAS_VTK, 'needs the package python3-vtk9')
+    def test_a_segmentation_of_a_million_faces_as_slicer_saves_it(self):
+        """A ball of 60 mm left of, behind and above the origin, in LPS. It is in front of its place if axes are mixed up."""
+        path = self.path('Segment_1.vtk')
+        subprocess.run(['/usr/bin/python3', '-c', SEGMENTATION, path], check=True, timeout=100)
+        vertices, faces = read_mesh(path, scale=0.001, lps=True)
+        self.assertEqual(len(faces), 1000000)
+        np.testing.assert_allclose(vertices.min(axis=0), [-0.05, -0.08, 0.0], atol=1e-6)
+        np.testing.assert_allclose(vertices.max(axis=0), [0.01, -0.02, 0.06], atol=1e-6)
+        ball = 4 / 3 * np.pi * 0.03 ** 3
+        self.assertAlmostEqual(volume(vertices[faces]) / ball, 1.0, delta=1e-4)
 
     def test_own_mesh_says_what_is_often_wrong(self):
         path = self.path('turned.obj', ''.join('v %r %r %r\n' % tuple(100 * v) for v in CUBE)

@@ -106,21 +106,28 @@ reader.Update()
 data = reader.GetOutputDataObject(0)
 if errors or not data or not data.IsA("vtkPointSet") or not data.GetPoints():
     refuse("VTK cannot read it: " + (errors or ["it has no points, or is no polygonal mesh"])[0].split("): ", 1)[-1])
-def cells(array):
-    at, ids = (vtk_to_numpy(part) for part in (array.GetOffsetsArray(), array.GetConnectivityArray()))
-    return [ids[begin:end] for begin, end in zip(at[:-1], at[1:])]
-def strip(ids): return [ids[[i, i + 1 + i % 2, i + 2 - i % 2]] for i in range(len(ids) - 2)]
+def cells(array): return [vtk_to_numpy(part) for part in (array.GetOffsetsArray(), array.GetConnectivityArray())]
+def triangles(strip): return [strip[[i, i + 1 + i % 2, i + 2 - i % 2]] for i in range(len(strip) - 2)]
+def split(at, ids): return numpy.split(ids, at[1:-1])
 if data.IsA("vtkPolyData"):
-    faces = cells(data.GetPolys()) + [face for ids in cells(data.GetStrips()) for face in strip(ids)]
+    at, ids = cells(data.GetPolys())
+    strips = [face for strip in split(*cells(data.GetStrips())) for face in triangles(strip)]
+    sizes, ids = numpy.append(numpy.diff(at), numpy.full(len(strips), 3)), numpy.concatenate([ids, *strips])
 else:
-    shapes = {5: lambda ids: [ids], 6: strip, 7: lambda ids: [ids], 8: lambda ids: [ids[[0, 1, 3, 2]]], 9: lambda ids: [ids]}
-    kinds = [data.GetCellType(i) for i in range(data.GetNumberOfCells())]
-    faces = [face for kind, ids in zip(kinds, cells(data.GetCells())) for face in shapes.get(kind, lambda ids: [])(ids)]
+    (at, ids), kinds = cells(data.GetCells()), vtk_to_numpy(data.GetCellTypesArray())
+    third = at[:-1][kinds == 8] + 2  # Pixels have their last two corners in the other order.
+    ids[third], ids[third + 1] = ids[third + 1], ids[third]
+    if (kinds == 6).any():
+        faces = [face for kind, cell in zip(kinds, split(at, ids)) for face in (triangles(cell) if kind == 6 else [cell])]
+        kinds = numpy.concatenate([[5] * (len(cell) - 2) if kind == 6 else [kind] for kind, cell in zip(kinds, split(at, ids))])
+        at, ids = numpy.cumsum([0, *map(len, faces)]), numpy.concatenate(faces)
+    sizes, is_face = numpy.diff(at), numpy.isin(kinds, (5, 7, 8, 9))
+    ids, sizes = ids[numpy.repeat(is_face, sizes)], sizes[is_face]
 points = vtk_to_numpy(data.GetPoints().GetData()).astype("<f8")
 print("ply\nformat binary_little_endian 1.0\nelement vertex", len(points), "\nproperty double x\nproperty double y\nproperty double z"
-      "\nelement face", len(faces), "\nproperty list int int64 vertex_indices\nend_header", flush=True)
+      "\nelement face", len(sizes), "\nproperty list int int vertex_indices\nend_header", flush=True)
 sys.stdout.buffer.write(points.tobytes())
-for face in faces: sys.stdout.buffer.write(numpy.int32(len(face)).tobytes() + face.astype("<i8").tobytes())
+sys.stdout.buffer.write(numpy.insert(ids, numpy.cumsum(sizes) - sizes, sizes).astype("<i4").tobytes())
 )";
 
 /// The surface in a VTK file as a PLY file. VTK reads it in a process of its own, because a broken
