@@ -21,7 +21,9 @@ from support.launch_case import FrameLog, LaunchCase, PACKAGE, files
 from support.node_client import LIMIT, Log, NodeClient, pose_stamped, wait_until
 from support.processes import NodeStarter, program
 
-HANDS = {'config/demo_hands.yaml', 'examples/haptics.yaml', 'examples/lockstep.yaml'}  # The tools of haptic_proxy.
+# The tools of haptic_proxy.
+HANDS = {'config/demo_hands.yaml', 'examples/haptics.yaml', 'examples/lockstep.yaml', 'examples/ambf/hand.yaml'}
+OF_AMBF = {'examples/ambf/scene.yaml', 'examples/ambf/environment.yaml'}  # Only AMBF reads them.
 
 
 def shown_topics(displays):
@@ -130,7 +132,8 @@ class LaunchFilesTest(LaunchCase, NodeStarter):
         """A file with tools starts a collision node that answers, or a haptic_proxy that tells the state of each of
         them, and a file with organs a mesh adapter that accepts their meshes. None reports an unknown name."""
         started = set()
-        for path in sorted(files('config', '.yaml') | files('examples', '.yaml')):
+        folders = 'config', 'examples', 'examples/ambf'
+        for path in sorted(set().union(*(files(folder, '.yaml') for folder in folders)) - OF_AMBF):
             with open(os.path.join(PACKAGE, path)) as text:
                 parameters = yaml.safe_load(text)
             name = '/from_' + re.sub(r'\W', '_', path)
