@@ -3,16 +3,17 @@
 measured_cp of the device to the pose of the tool, and from the wrench of the tool to servo_cf of the device.
 
 Topics, to be remapped
-  measured_cp   geometry_msgs/PoseStamped, of the arm that carries the tool. Invalid ones have the stamp 0. If there
-                are none, TF must have the frame of the wrench
+  measured_cp   geometry_msgs/PoseStamped, of the arm that carries the tool. Invalid ones have the stamp 0
   pose          the valid ones of them, for tip_pose_topic
-  wrench        of haptic_proxy: HAPTIC_PROXY/TOOL/wrench, in the axes of the tip, its torque about the tip
+  wrench        of haptic_proxy: HAPTIC_PROXY/TOOL/wrench, in the axes of the tip, its torque about the tip. Or a wrench
+                in a frame of TF
   servo_cf      geometry_msgs/WrenchStamped, of the arm that the hand holds. CRTK says by the name of the topic what
                 its axes are, and about which point its torque is: body/servo_cf or spatial/servo_cf
 
 Parameters
   ~axes           tip: those of the tip, as for body/servo_cf; base: those of the frame of measured_cp, as for
-                  spatial/servo_cf; or any frame that TF connects with that one. Default: tip
+                  spatial/servo_cf; or any frame that TF connects with that of the wrench, or else with that of
+                  measured_cp. Default: tip
   ~torque_about   tip, or axes: the origin of that frame, as for spatial/servo_cf; default: tip
   ~max_force      [N] default: 2
   ~max_torque     [N m] default: 0, no torque
@@ -105,10 +106,12 @@ class Hand:
         """The name of the frame of the axes, and the pose of the wrench's frame in it."""
         if self.axes == 'tip':
             return tip, Frame()
-        base, T_base_tip = (self.base, self.tip) if self.tip else (tip, Frame())
+        base, T_base_tip = self.base, self.tip
+        if self.axes != 'base' and (not self.tip or self.transforms.can_transform(self.axes, tip, rospy.Time())):
+            base, T_base_tip = tip, Frame()
+        if not T_base_tip:
+            raise tf2_ros.TransformException('no valid pose on %s' % rospy.resolve_name('measured_cp'))
         if self.axes in ('base', base):
-            if self.tip is None:
-                raise tf2_ros.TransformException('no valid pose on %s' % rospy.resolve_name('measured_cp'))
             return base, T_base_tip
         transform = self.transforms.lookup_transform(self.axes, base, rospy.Time()).transform
         return self.axes, frame(transform.translation, transform.rotation) * T_base_tip

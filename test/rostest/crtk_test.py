@@ -17,6 +17,7 @@ from support.processes import NodeStarter
 
 PLACE, TURN = np.array([0.3, -0.2, 0.1]), np.array([0.36, 0.48, 0.64, 0.48])  # the tip in the base [m], quaternion
 CAMERA, CAMERA_TURN = (0.5, 0.1, -0.4), (0.0, 0.6, 0.0, 0.8)  # the base in the camera
+TISSUE_TURN = (0.48, 0.0, 0.6, 0.64)  # the tissue's axes in the camera
 
 
 def matrix(quaternion):
@@ -47,7 +48,8 @@ class CrtkTest(NodeStarter):
         self.camera = StaticTransformBroadcaster()
         base = TransformStamped(Header(0, rospy.Time.now(), 'camera'), 'arm_base',
                                 Transform(Vector3(*CAMERA), Quaternion(*CAMERA_TURN)))
-        self.camera.sendTransform(base)
+        tissue = TransformStamped(base.header, 'tissue', Transform(Vector3(7, 8, 9), Quaternion(*TISSUE_TURN)))
+        self.camera.sendTransform([base, tissue])
 
     def move(self, place, stamp=None):
         message = PoseStamped()
@@ -98,6 +100,14 @@ class CrtkTest(NodeStarter):
                 at_tip = R.T @ (moving + np.cross(turning, PLACE)), R.T @ turning
                 self.assertAlmostEqual(felt['spatial'][1] @ moving + felt['spatial'][2] @ turning,
                                        felt['body'][1] @ at_tip[0] + felt['body'][2] @ at_tip[1])
+
+    def test_a_wrench_in_a_frame_of_tf_needs_no_pose_of_the_arm(self):
+        """As the part of one organ, in the frame of the proxies."""
+        self.move(PLACE)
+        force, torque = np.array([0.3, -0.5, 1.2]), np.array([0.02, 0.01, -0.03])
+        right, log = 0.5 * matrix(TISSUE_TURN) @ force, self.logs['camera']
+        wait_until(lambda: self.tool.publish(wrench(force, torque, 'tissue')) or rospy.sleep(0.02) or log.last(
+            lambda m: np.allclose(values(m.wrench.force), right, atol=1e-9)), lambda: log.messages[-3:])
 
     def test_without_wrenches_it_lets_go(self):
         """In steps, within 10 ms in its own time; and never with a wrench that is not finite."""
