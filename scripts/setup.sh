@@ -102,6 +102,9 @@ build_package() {
   done
   use_ros
   use_ccache
+  # A library's sources need not wait until the libraries that it links are complete, as with make. A folder that make
+  # has begun stays with make.
+  export CMAKE_GENERATOR=Ninja
   say "Building in $build"
   cmake -S "$repository" -B "$build" -DCATKIN_DEVEL_PREFIX="$devel" -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON \
     -DORGAN_COLLISION_STRICT=OFF "$@"
