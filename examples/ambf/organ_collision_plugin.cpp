@@ -78,38 +78,19 @@ class OrganCollisionPlugin : public ambf::afSimulatorPlugin {
     for (auto& [organ, tissue] : tissues_) move(tissue, stamp, duration);
   }
 
-  bool close() override {
-    queue_.disable();
-    node_.reset();
-    return true;
-  }
-
  private:
   void show_proxy(const std::string& tool, const std::string& name) {
     const boost::function<void(const PoseStamped&)> place = [this, name](const PoseStamped& proxy) {
-      ambf::afRigidBodyPtr body = rigid_body(name);
-      if (body == nullptr || proxy.header.frame_id != kWorld) {
-        ROS_WARN_THROTTLE(5.0,
-                          "the proxy in frame '%s' is not shown: it must be in '%s', and AMBF must "
-                          "have a body '%s'",
-                          proxy.header.frame_id.c_str(), kWorld, name.c_str());
-        return;
+      for (const auto& [key, object] : *m_worldPtr->getRigidBodyMap()) {
+        if (object->getName() != name) continue;
+        const auto &p = proxy.pose.position, &q = proxy.pose.orientation;
+        chai3d::cMatrix3d axes;
+        chai3d::cQuaternion(q.w, q.x, q.y, q.z).toRotMat(axes);
+        object->setLocalTransform({chai3d::cVector3d(p.x, p.y, p.z) / unit_, axes});
       }
-      const auto &p = proxy.pose.position, &q = proxy.pose.orientation;
-      chai3d::cQuaternion rotation(q.w, q.x, q.y, q.z);
-      chai3d::cMatrix3d axes;
-      rotation.toRotMat(axes);
-      body->setLocalTransform({chai3d::cVector3d(p.x, p.y, p.z) / unit_, axes});
     };
     subscribers_.push_back(
         node_->subscribe<PoseStamped>("haptic_proxy/" + tool + "/proxy", 1, place));
-  }
-
-  ambf::afRigidBodyPtr rigid_body(const std::string& name) const {
-    for (const auto& [key, object] : *m_worldPtr->getRigidBodyMap()) {
-      if (object->getName() == name) return static_cast<ambf::afRigidBodyPtr>(object);
-    }
-    return nullptr;
   }
 
   void send_poses(ros::Time stamp) {
