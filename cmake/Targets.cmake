@@ -32,7 +32,7 @@ option(ORGAN_COLLISION_STRICT "Take the compiler's warnings for errors" OFF)
 
 # With -DCMAKE_UNITY_BUILD=ON, so many sources of a library are compiled as one: two cores are still kept busy, and the
 # headers are read less often.
-set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
+set(CMAKE_UNITY_BUILD_BATCH_SIZE 6)
 
 # organ_collision_target(TARGET): sets the warnings that every target of the package is built with.
 function(organ_collision_target target)
