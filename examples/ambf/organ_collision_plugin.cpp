@@ -10,6 +10,7 @@
 //   0.01
 
 #include <BulletSoftBody/btSoftBody.h>
+#include <afConversions.h>
 #include <afFramework.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <organ_collision/OrganMesh.h>
@@ -83,10 +84,10 @@ class OrganCollisionPlugin : public ambf::afSimulatorPlugin {
     const boost::function<void(const PoseStamped&)> place = [this, name](const PoseStamped& proxy) {
       for (const auto& [key, object] : *m_worldPtr->getRigidBodyMap()) {
         if (object->getName() != name) continue;
-        const auto &p = proxy.pose.position, &q = proxy.pose.orientation;
-        chai3d::cMatrix3d axes;
-        chai3d::cQuaternion(q.w, q.x, q.y, q.z).toRotMat(axes);
-        object->setLocalTransform({chai3d::cVector3d(p.x, p.y, p.z) / unit_, axes});
+        const auto& p = proxy.pose.position;
+        const auto& q = proxy.pose.orientation;
+        const btTransform pose(btQuaternion(q.x, q.y, q.z, q.w), btVector3(p.x, p.y, p.z) / unit_);
+        object->setLocalTransform(to_cTransform(pose));
       }
     };
     subscribers_.push_back(
@@ -96,9 +97,11 @@ class OrganCollisionPlugin : public ambf::afSimulatorPlugin {
   void send_poses(ros::Time stamp) {
     tf2_msgs::TFMessage message;
     for (const auto& [key, object] : *m_worldPtr->getRigidBodyMap()) {
-      chai3d::cTransform pose = object->getLocalTransform();
-      const Eigen::Translation3d place(unit_ * pose.getLocalPos().eigen());
-      const Eigen::Quaterniond rotation(pose.getLocalRot().eigen());
+      const btTransform pose = to_btTransform(object->getLocalTransform());
+      const btVector3 p = pose.getOrigin() * unit_;
+      const btQuaternion q = pose.getRotation();
+      const Eigen::Translation3d place(p.x(), p.y(), p.z());
+      const Eigen::Quaterniond rotation(q.w(), q.x(), q.y(), q.z());
       message.transforms.push_back(tf2::eigenToTransform(place * rotation));
       message.transforms.back().header.stamp = stamp;
       message.transforms.back().header.frame_id = kWorld;
