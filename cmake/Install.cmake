@@ -23,8 +23,8 @@ install(DIRECTORY config launch urdf DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINAT
   PATTERN "*.py" EXCLUDE)
 install(DIRECTORY examples DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}
   FILES_MATCHING PATTERN "*.launch" PATTERN "*.yaml" PATTERN "*.obj")
-# The plugin is compiled where AMBF is, from a copy of its folder.
-install(DIRECTORY examples/ambf DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/examples
+# Compiled where the simulators are, from copies of these folders.
+install(DIRECTORY examples/ambf examples/sofa DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/examples
   USE_SOURCE_PERMISSIONS PATTERN "build" EXCLUDE)
 install(PROGRAMS examples/ask.py examples/ask_many.py examples/crtk_hand.py examples/dvrk_organ.py
   examples/dvrk_robot.py examples/grasper.py examples/lower_until_touch.py examples/numpy_simulator.py

@@ -22,7 +22,7 @@ from support.node_client import LIMIT, ContactLog, Log, NodeClient, pose_stamped
 from support.processes import NodeStarter, program
 
 LONG = 90.0  # [s]
-TESTED = {'ambf/ambf', 'start', 'mesh_adapter', 'two_hosts', 'haptics', 'dvrk', 'fem_tissue', 'forces', 'numpy'}
+TESTED = {'ambf/ambf', 'sofa/sofa', 'start', 'mesh_adapter', 'two_hosts', 'haptics', 'dvrk', 'fem_tissue', 'forces', 'numpy'}
 ELSEWHERE = {'grasper', 'plan'}  # robots.test
 FEM_STEP = 0.004  # [s] of fem_tissue
 
@@ -66,7 +66,8 @@ def depths(said):
 class ExamplesTest(LaunchCase, NodeStarter):
     def test_every_launch_file_is_tested(self):
         self.assertEqual({'examples/%s.launch' % name for name in TESTED | ELSEWHERE},
-                         files('examples', '.launch') | files('examples/ambf', '.launch'))
+                         files('examples', '.launch') | files('examples/ambf', '.launch')
+                         | files('examples/sofa', '.launch'))
 
     def test_start(self):
         """In both minimal simulators the probe presses the tissue by some millimetres, straight down. Both ask programs
@@ -109,6 +110,12 @@ class ExamplesTest(LaunchCase, NodeStarter):
             self.check_collision_node('/organ_collision')
             rospy.wait_for_message('/haptic_proxy/hand/state', ProxyState, timeout=LIMIT)
             self.assertEqual(rospy.get_param('/organ_collision_plugin/tools'), {'hand': 'probe'})
+
+    def test_sofa(self):
+        """The nodes that run beside SOFA, which is not needed."""
+        with self.launched('examples/sofa/sofa.launch', 'forces:=true'):
+            self.check_collision_node('/organ_collision')
+            rospy.wait_for_message('/haptic_proxy/hand/state', ProxyState, timeout=LIMIT)
 
     def test_two_hosts(self):
         """Both on this one."""

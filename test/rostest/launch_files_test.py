@@ -22,7 +22,8 @@ from support.node_client import LIMIT, Log, NodeClient, pose_stamped, wait_until
 from support.processes import NodeStarter, program
 
 # The tools of haptic_proxy.
-HANDS = {'config/demo_hands.yaml', 'examples/haptics.yaml', 'examples/lockstep.yaml', 'examples/ambf/hand.yaml'}
+HANDS = {'config/demo_hands.yaml', 'examples/haptics.yaml', 'examples/lockstep.yaml', 'examples/ambf/hand.yaml',
+         'examples/sofa/hand.yaml'}
 OF_AMBF = {'examples/ambf/scene.yaml', 'examples/ambf/environment.yaml'}  # Only AMBF reads them.
 
 
@@ -132,7 +133,7 @@ class LaunchFilesTest(LaunchCase, NodeStarter):
         """A file with tools starts a collision node that answers, or a haptic_proxy that tells the state of each of
         them, and a file with organs a mesh adapter that accepts their meshes. None reports an unknown name."""
         started = set()
-        folders = 'config', 'examples', 'examples/ambf'
+        folders = 'config', 'examples', 'examples/ambf', 'examples/sofa'
         for path in sorted(set().union(*(files(folder, '.yaml') for folder in folders)) - OF_AMBF):
             with open(os.path.join(PACKAGE, path)) as text:
                 parameters = yaml.safe_load(text)
