@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""A tool that obeys tool_guard moves towards an organ. In the middle of the motion, the collision node, the guard or the
-transforms end or hang: the tool stops. How long that takes is printed and not checked, because the machine may be busy."""
+"""A tool that obeys tool_guard moves towards an organ. In the middle of the motion, the node, the guard or the transforms
+end or hang: the tool stops. How long that takes is printed and not checked, because the machine may be busy."""
 
 import signal
 import sys
@@ -18,7 +18,8 @@ from support.node_client import Log, NodeClient, TfSender, wait_until
 from support.processes import NodeStarter
 
 TROCAR, HIGH, SPEED = (0.003, 0.002, 0.4), 0.2, 0.02
-TOOL = {'name': 'hook', 'trocar_frame': 'hook_trocar', 'tip_frame': 'hook_tip', 'radius': 0.004, 'margin': 0.3, 'max_near': 1}
+TOOL = {'name': 'hook', 'trocar_frame': 'hook_trocar', 'tip_frame': 'hook_tip', 'radius': 0.004, 'margin': 0.3,
+        'max_near': 1}
 # Long, so that a busy machine makes no answer stale.
 GUARD = {'latency': 2.0, 'watch_time': 0.1, 'tissue_speed': 0.0, 'hold_sec': 0.0, 'collision_node': '/organ_collision'}
 BOX = scenes.box()

@@ -148,6 +148,9 @@ class LaunchFilesTest(LaunchCase, NodeStarter):
             elif 'tools' in parameters:
                 process = self.start(name, parameters)
                 self.check_collision_node(name)
+            elif 'latency' in parameters:
+                process = self.start(name, parameters, 'tool_guard')
+                wait_until(lambda: name in nodes_online(), name)
             elif 'sources' in parameters:
                 process = self.start(name, parameters, 'pose_adapter.py')
                 self.check_pose_adapter(parameters['sources'])
