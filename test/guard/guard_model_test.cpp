@@ -198,7 +198,7 @@ TEST(GuardModel, AToolThatObeysDoesNotTouch) {
       pushed, unused, touched_by_tissue);
   EXPECT_GT(pushed, 150u);
   EXPECT_GT(touched_by_tissue, 100u);
-  EXPECT_LT(unused, 0.003);
+  EXPECT_LT(unused, 1e-4);
 }
 
 }  // namespace

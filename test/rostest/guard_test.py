@@ -95,6 +95,7 @@ class GuardTest(NodeStarter):
         self.wait_for_motion()
         self.process.kill()
         self.assert_stops('node, kill -9', ' s old', 'liver')
+        self.process.wait()  # Its port may still accept connections.
         self.begin_node()
         self.wait_for_motion()
 
