@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <map>
 #include <set>
 #include <string>
@@ -11,34 +10,22 @@
 
 namespace organ_collision {
 
-/// The side of an organ's surface on which tools may be.
-enum class KeptSide { kOutside, kInside, kEither };
-
-struct KeptSideName {
-  const char* name;
-  KeptSide value;
-};
-inline constexpr KeptSideName kKeptSideNames[] = {
-    {"outside", KeptSide::kOutside}, {"inside", KeptSide::kInside}, {"either", KeptSide::kEither}};
-
 /// The name of a tool's shaft in the parameter touch_allowed.
 inline constexpr char kShaftName[] = "shaft";
+inline constexpr double kHighestLatency = 2.0;  ///< [s] that is legal
 
 /// The parameters of tool_guard, with the documented defaults.
 struct GuardParameters {
   std::vector<std::string> tools;  ///< empty: all tools of the collision node
   std::string collision_node = "organ_collision";
-  double latency = 0.15;      ///< [s]
-  double watch_time = 0.05;   ///< [s]
-  double deceleration = 1.0;  ///< [m/s^2]
-  double error = 0.001;       ///< [m]
-  double max_speed = 0.1;     ///< [m/s]
-  double tissue_speed = 0.05;
-  double retreat_speed = 0.005;
-  double hold_sec = 0.1;
+  double latency = 0.15, watch_time = 0.05;                     ///< [s]
+  double deceleration = 1.0;                                    ///< [m/s^2]
+  double error = 0.001;                                         ///< [m]
+  double max_speed = 0.1, retreat_speed = 0.005;                ///< [m/s]
+  double tissue_speed = 0.05;                                   ///< [m/s]
+  double hold_sec = 0.1, diagnostic_period_sec = 1.0;           ///< the latter in wall time
   std::map<std::string, KeptSide> keep;                         ///< by organ
   std::set<std::pair<std::string, std::string>> touch_allowed;  ///< organs and links
-  double diagnostic_period_sec = 1.0;                           ///< in wall time
   std::vector<std::string> misspelt;  ///< a sentence for each unknown name
 
   /// [s] Answers that are older are stale. The rest of the latency is for the watch of the guard,
@@ -46,34 +33,8 @@ struct GuardParameters {
   double longest_age() const { return 2.0 / 3.0 * (latency - watch_time); }
 };
 
-inline void parse_keep(const ParameterGroup& all, GuardParameters& p) {
-  if (!all.has("keep")) return;
-  const XmlRpc::XmlRpcValue& list = all.list("keep", "groups of organ and side");
-  for (int i = 0; i < list.size(); ++i) {
-    const ParameterGroup entry("~keep[" + std::to_string(i) + "]", list[i], {"organ", "side"});
-    const std::string side = entry.text("side");
-    entry.choice("side", side, {"outside", "inside", "either"});
-    for (const KeptSideName& kept : kKeptSideNames) {
-      if (kept.name != side) continue;
-      if (!p.keep.insert({entry.text("organ"), kept.value}).second) {
-        entry.refuse("organ", "must be unique among the organs of ~keep");
-      }
-    }
-    for (const std::string& sentence : entry.misspelt()) p.misspelt.push_back(sentence);
-  }
-}
-
-inline void parse_touch_allowed(const ParameterGroup& all, GuardParameters& p) {
-  if (!all.has("touch_allowed")) return;
-  const XmlRpc::XmlRpcValue& list = all.list("touch_allowed", "groups of organ and link");
-  for (int i = 0; i < list.size(); ++i) {
-    const ParameterGroup entry("~touch_allowed[" + std::to_string(i) + "]", list[i],
-                               {"organ", "link"});
-    p.touch_allowed.insert({entry.text("organ"), entry.text("link")});
-    for (const std::string& sentence : entry.misspelt()) p.misspelt.push_back(sentence);
-  }
-}
-
+/// The receiver of the states has max_speed, retreat_speed and watch_time, too. So they are not
+/// live: the guard alone must not change them.
 inline ParameterTable table_of(GuardParameters& p) {
   ParameterTable t;
   t.other(
@@ -82,46 +43,47 @@ inline ParameterTable table_of(GuardParameters& p) {
         if (all.has("tools")) p.tools = all.texts("tools");
       },
       "names of the tools that are guarded. Each must have a margin");
-  t.other(
-      "collision_node", p.collision_node,
-      [&p](const ParameterGroup& all) {
-        if (all.has("collision_node")) p.collision_node = all.text("collision_node");
-      },
-      "name of the node whose topic contacts is watched");
-  t.number("latency", p.latency, {0.12, 2.0},
-           "[s] from the time of an answer's stamp until the tool begins to brake. It contains "
-           "watch_time. Answers that are older than two thirds of latency - watch_time are stale")
+  const auto read_node = [&p](const ParameterGroup& all) {
+    if (all.has("collision_node")) p.collision_node = all.text("collision_node");
+  };
+  t.other("collision_node", p.collision_node, read_node, "the node whose contacts are watched");
+  t.number("latency", p.latency, {0.12, kHighestLatency},
+           "[s] from an answer's stamp until the tool begins to brake, with watch_time. Answers "
+           "that are older than two thirds of latency - watch_time are stale")
       .live();
-  t.number("watch_time", p.watch_time, {0.02, 0.1},
-           "[s] a receiver that gets no state for this time stops the tool by itself")
-      .live();
-  t.number("deceleration", p.deceleration, {1e-3, 100.0}, "[m/s^2] with which the tool brakes")
-      .live();
+  t.number("watch_time", p.watch_time, {0.03, 0.1},
+           "[s] a receiver that gets no state for this time stops the tool by itself");
+  t.number("deceleration", p.deceleration, {1e-3, 100.0}, "[m/s^2] of a tool that brakes").live();
   t.number("error", p.error, {0.0, 0.1},
-           "[m] by which a distance may be wrong, as by calibration. A tool that is so near stops")
+           "[m] by which a distance may be wrong. A tool that is so near stops")
       .live();
   t.number("max_speed", p.max_speed, {1e-3, 10.0},
-           "[m/s] of any point of the tool, at the speed_scale 1")
-      .live();
+           "[m/s] of any point of the tool, at the speed_scale 1");
   t.number("tissue_speed", p.tissue_speed, {0.0, 10.0},
            "[m/s] at which tissue comes at most. Assumed where an answer has not the tissue's "
            "velocity: beyond the margin, and without max_near")
       .live();
   t.number("retreat_speed", p.retreat_speed, {0.0, 0.1},
-           "[m/s] up to which a tool may move along `retreat` in every stage")
-      .live();
+           "[m/s] up to which a tool may move along `retreat` in every stage");
   t.number("hold_sec", p.hold_sec, {0.0, 10.0},
            "[s] speed_scale falls at once. It rises to what has been allowed for this time")
       .live();
   t.other(
-      "keep", "outside of all organs", [&p](const ParameterGroup& all) { parse_keep(all, p); },
-      "list of organs in which tools work. Each has organ, the name of the organ, and side: "
-      "inside, outside or either. Tip and trocar on another side, or on an unknown one, stop the "
-      "tool. Organs that are not in the list and whose surface is not closed have no side");
-  t.other(
-      "touch_allowed", "none", [&p](const ParameterGroup& all) { parse_touch_allowed(all, p); },
-      "list of contacts that do not stop a tool. Each has organ and link; the link shaft is the "
-      "tool's shaft. The distance of such a link does not slow the tool down");
+      "keep", "outside of all organs",
+      [&p](const ParameterGroup& all) { p.keep = parse_keep(all, p.misspelt); },
+      "list of organs in which tools work. Each has organ, its name, and side: inside, outside or "
+      "either. Tip and trocar on another side, or on an unknown one, stop the tool. Open organs "
+      "that are not in the list have no side");
+  const auto read_rows = [&p](const ParameterGroup& all) {
+    if (!all.has("touch_allowed")) return;
+    for (const ParameterGroup& row :
+         all.groups("touch_allowed", "groups of organ and link", {"organ", "link"}, p.misspelt)) {
+      p.touch_allowed.insert({row.text("organ"), row.text("link")});
+    }
+  };
+  t.other("touch_allowed", "none", read_rows,
+          "list of contacts that do not stop a tool. Each has organ and link; the link shaft is "
+          "the tool's shaft. The distance of such a link does not slow the tool down");
   t.number("diagnostic_period_sec", p.diagnostic_period_sec, kTimerPeriod,
            "[s] between messages on /diagnostics");
   return t;

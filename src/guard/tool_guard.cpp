@@ -13,15 +13,23 @@ namespace {
 
 using Eigen::Vector3d;
 
-const char* side_name(std::uint8_t side) {
-  return side == ToolPlacement::INSIDE    ? "inside"
-         : side == ToolPlacement::OUTSIDE ? "outside"
-                                          : "unknown";
-}
-
 /// [m/s] at which the tissue of a near face comes towards the tool.
 double coming(const Contact& near) {
   return std::max(0.0, -to_eigen(near.normal).dot(to_eigen(near.velocity)));
+}
+
+GuardState nothing_known(ros::Time now) {
+  GuardState state;
+  state.header.stamp = now;
+  state.link = -1;
+  state.distance = kUnlimited;
+  return state;
+}
+
+std::string link_name(const ContactArray& answer, int link) {
+  if (link < 0) return kShaftName;
+  const auto i = static_cast<std::size_t>(link);
+  return i < answer.links.size() ? answer.links[i] : "link " + std::to_string(link);
 }
 
 }  // namespace
@@ -61,89 +69,104 @@ void ToolGuard::set_organs(const std::vector<OrganInfo>& organs, double asked) {
 }
 
 GuardState ToolGuard::decide(GuardTime now) {
-  GuardState state;
-  state.header.stamp = now.ros;
-  state.link = -1;
-  state.distance = kUnlimited;
-  if (!has_list_) {
-    state.reason = "the collision node has not told its organs yet";
-  } else if (organs_.empty()) {
-    state.reason = "the collision node has no organ, so that nothing is watched";
+  std::vector<Verdict> verdicts;
+  if (!has_list_ || organs_.empty()) {
+    GuardState& state = verdicts.emplace_back().state;
+    state = nothing_known(now.ros);
+    state.reason = has_list_ ? "the collision node has no organ, so that nothing is watched"
+                             : "the collision node has not told its organs yet";
   } else {
-    std::vector<GuardState> verdicts;
-    for (const auto& [name, organ] : organs_) verdicts.push_back(judge(name, organ, now));
-    state = *std::min_element(verdicts.begin(), verdicts.end(),
-                              [](const GuardState& a, const GuardState& b) {
-                                return a.speed_scale < b.speed_scale ||
-                                       (a.speed_scale == b.speed_scale && a.distance < b.distance);
-                              });
-    const bool may_retreat = std::all_of(verdicts.begin(), verdicts.end(), [&](const auto& other) {
-      return other.organ == state.organ || lets_retreat(state, other);
-    });
-    if (!may_retreat) state.retreat = {};
+    for (const auto& [name, organ] : organs_) judge(name, organ, now, verdicts);
   }
+  const auto chosen =
+      std::min_element(verdicts.begin(), verdicts.end(), [](const Verdict& a, const Verdict& b) {
+        return std::pair(a.state.speed_scale, a.state.distance) <
+               std::pair(b.state.speed_scale, b.state.distance);
+      });
+  GuardState state = chosen->state;
   state.tool = tool_.name;
+  for (const Verdict& other : verdicts) {
+    if (!lets_retreat(chosen->state, other)) state.retreat = {};
+  }
+  if (state.speed_scale < 1.0 && state.reason.empty()) {
+    const std::string link = link_name(*organs_.at(state.organ).answer, state.link);
+    const char* least = std::isinf(state.distance) ? "at least " : "";
+    state.reason = concatenate("organ '", state.organ, "': ", link, " is ", least, chosen->bound,
+                               " m away, error is ", parameters_.error,
+                               " m, and the tissue comes at ", chosen->tissue, " m/s");
+  }
   hold(state, now.steady);
   note_sent(state.speed_scale * parameters_.max_speed, now.steady);
   return state;
 }
 
-/// What one organ allows. `speed_scale` and `reason` are not held yet.
-GuardState ToolGuard::judge(const std::string& name, const Organ& organ, GuardTime now) const {
-  GuardState state;
-  state.header.stamp = now.ros;
-  state.organ = name;
-  state.link = -1;
-  state.distance = kUnlimited;
-  if (!organ.answer) {
-    state.reason = "no answer about the organ '" + name + "' has come";
-    return state;
+/// Adds what an organ allows: one verdict if its answer cannot be trusted, or else one for each of
+/// the nearest places of the links that must not touch, that of the clearance first.
+void ToolGuard::judge(const std::string& name, const Organ& organ, GuardTime now,
+                      std::vector<Verdict>& verdicts) const {
+  GuardState of_all = nothing_known(now.ros);
+  of_all.organ = name;
+  if (organ.answer) of_all.header = organ.answer->header;
+  const std::string fault = untrusted(organ, now);
+  const std::string reason = fault.empty() ? forbidden(name, organ) : fault;
+  if (!reason.empty()) of_all.reason = "organ '" + name + "': " + reason;
+  if (!fault.empty()) {
+    verdicts.push_back({of_all});
+    return;
   }
   const ContactArray& answer = *organ.answer;
-  state.header = answer.header;
-  state.reason = untrusted(organ, now);
-  if (!state.reason.empty()) {
-    state.reason = "organ '" + name + "': " + state.reason;
-    return state;
+  const Clearance& clearance = answer.clearance;
+  const bool is_inside_out = is_wrong(name, organ, answer.placement.tip);
+  const auto add = [&](const auto& place, const Vector3d& normal, double distance, double tissue) {
+    const double allowed = allowed_speed(distance, tissue, now.steady);
+    verdicts.push_back({of_all, distance, tissue, is_inside_out ? 0.0 : allowed});
+    GuardState& state = verdicts.back().state;
+    if (reason.empty()) state.speed_scale = std::min(1.0, allowed / parameters_.max_speed);
+    state.link = place.link;
+    state.on_tool = place.on_tool;
+    state.on_organ = place.on_organ;
+    state.distance = distance;
+    state.closing_speed = tissue;
+    state.retreat = to_vector(retreat(name, organ, normal));
+  };
+  const bool is_known = clearance.state == Clearance::KNOWN;
+  const bool counts = is_known && !may_touch(answer, clearance.link);
+  if (counts) {
+    double tissue = parameters_.tissue_speed;
+    for (const Contact& near : answer.near) {
+      if (near.face == clearance.face && near.link == clearance.link) tissue = coming(near);
+    }
+    const bool has_normal = clearance.normal_defined;
+    add(clearance, has_normal ? to_eigen(clearance.normal) : Vector3d(0, 0, 0), clearance.distance,
+        tissue);
+    verdicts.back().state.closing_speed = clearance.closing_speed;
+    if (is_inside_out) return;
   }
-  Place nearest;
-  double speed = kUnlimited;
-  for (const Place& place : places(answer)) {
-    const double allowed = allowed_speed(place, now.steady);
-    if (allowed > speed || (allowed == speed && place.distance >= nearest.distance)) continue;
-    speed = allowed;
-    nearest = place;
+  for (const Contact& near : answer.near) {
+    if (!may_touch(answer, near.link)) add(near, to_eigen(near.normal), -near.depth, coming(near));
   }
-  if (nearest.is_known) {
-    state.link = nearest.link;
-    state.on_tool = nearest.on_tool;
-    state.on_organ = nearest.on_organ;
-    state.distance = nearest.distance;
-    state.closing_speed = nearest.closing_speed;
-  }
-  state.retreat = to_vector(retreat(name, organ, nearest));
-  state.reason = forbidden(name, organ);
-  if (!state.reason.empty()) return state;
-  state.speed_scale = std::clamp(speed / parameters_.max_speed, 0.0, 1.0);
-  if (state.speed_scale == 1.0) return state;
-  const std::string bound = nearest.is_known ? " is " : " is beyond the margin of ";
-  state.reason = concatenate(link_name(answer, nearest.link), bound, nearest.distance,
-                             " m from organ '", name, "', error is ", parameters_.error,
-                             ", and the tissue comes at ", nearest.tissue, " m/s");
-  return state;
+  if (counts) return;
+  // A link that may touch is nearest, or nothing is. The other links may be as near as the last
+  // face that is listed, unless all faces within the margin are.
+  double bound = clearance.margin;
+  if (is_known && answer.near.empty()) bound = clearance.distance;
+  if (answer.near_more && !answer.near.empty()) bound = -answer.near.back().depth;
+  Contact beyond;
+  beyond.link = -1;
+  add(beyond, Vector3d(0, 0, 0), bound, parameters_.tissue_speed);
+  verdicts.back().state.distance = kUnlimited;
 }
 
 /// Why an answer says nothing that a tool may trust. Empty: it may.
 std::string ToolGuard::untrusted(const Organ& organ, GuardTime now) const {
+  if (!organ.answer) return "no answer has come";
   const ContactArray& answer = *organ.answer;
   const double age = seconds_between(answer.header.stamp, now.ros);
-  const double silence = now.steady - organ.arrived, longest = parameters_.longest_age();
-  if (answer.status != ContactArray::OK) {
-    return reason_of(answer.status) + ": " + answer.message;
-  }
+  const double oldest = std::max(age, now.steady - organ.arrived);
+  if (answer.status != ContactArray::OK) return reason_of(answer.status) + ": " + answer.message;
   if (age < -kClockTolerance) return concatenate("the answer is ", -age, " s ahead of the clock");
-  if (std::max(age, silence) > longest) {
-    return concatenate("the last answer is ", std::max(age, silence), " s old; at most ", longest,
+  if (oldest > parameters_.longest_age()) {
+    return concatenate("the last answer is ", oldest, " s old; at most ", parameters_.longest_age(),
                        " s are allowed");
   }
   if (organ.lost) return "answers were lost on their way";
@@ -159,18 +182,16 @@ std::string ToolGuard::forbidden(const std::string& name, const Organ& organ) co
   const ContactArray& answer = *organ.answer;
   if (answer.path_incomplete) return "path incomplete: " + answer.message;
   for (const Contact& contact : answer.contacts) {
-    if (may_touch(answer, contact.link)) continue;
-    return link_name(answer, contact.link) + " touched organ '" + name + "'";
+    if (!may_touch(answer, contact.link)) return link_name(answer, contact.link) + " touched it";
   }
-  const ToolPlacement& placement = answer.placement;
-  for (const auto& [point, side] :
-       {std::pair("tip", placement.tip), std::pair("trocar", placement.trocar)}) {
-    if (point == std::string("trocar") && tool_.radius <= 0.0) continue;
-    if (!is_wrong(name, organ, side)) continue;
-    return concatenate("the side of the ", point, " is ", side_name(side), " for organ '", name,
-                       "', which `keep` does not allow");
-  }
-  return {};
+  const bool is_tip = is_wrong(name, organ, answer.placement.tip);
+  if (!is_tip && !(tool_.radius > 0.0 && is_wrong(name, organ, answer.placement.trocar))) return {};
+  const std::uint8_t side = is_tip ? answer.placement.tip : answer.placement.trocar;
+  return concatenate("the side of the ", is_tip ? "tip" : "trocar", " is ",
+                     side == ToolPlacement::INSIDE    ? "inside"
+                     : side == ToolPlacement::OUTSIDE ? "outside"
+                                                      : "unknown",
+                     ", which `keep` does not allow");
 }
 
 bool ToolGuard::is_wrong(const std::string& name, const Organ& organ, std::uint8_t side) const {
@@ -181,101 +202,67 @@ bool ToolGuard::is_wrong(const std::string& name, const Organ& organ, std::uint8
   return (side == ToolPlacement::INSIDE) != (kept == KeptSide::kInside);
 }
 
-std::string ToolGuard::link_name(const ContactArray& answer, int link) const {
-  if (link < 0) return kShaftName;
-  const auto i = static_cast<std::size_t>(link);
-  return i < answer.links.size() ? answer.links[i] : "link " + std::to_string(link);
-}
-
 bool ToolGuard::may_touch(const ContactArray& answer, int link) const {
   return parameters_.touch_allowed.count({answer.organ, link_name(answer, link)}) > 0;
 }
 
-/// The nearest places of the links that must not touch, or how far they are at least.
-std::vector<ToolGuard::Place> ToolGuard::places(const ContactArray& answer) const {
-  const Clearance& clearance = answer.clearance;
-  std::vector<Place> places;
-  double tissue = parameters_.tissue_speed;  // at the nearest place
-  for (const Contact& near : answer.near) {
-    if (near.face == clearance.face && near.link == clearance.link) tissue = coming(near);
-    if (may_touch(answer, near.link)) continue;
-    places.push_back({-near.depth, coming(near), near.link, near.on_tool, near.on_organ,
-                      to_eigen(near.normal), 0.0, true});
-  }
-  const bool is_known = clearance.state == Clearance::KNOWN;
-  if (is_known && !may_touch(answer, clearance.link)) {
-    const Vector3d normal =
-        clearance.normal_defined ? to_eigen(clearance.normal) : Vector3d::Zero();
-    places.push_back({clearance.distance, tissue, clearance.link, clearance.on_tool,
-                      clearance.on_organ, normal, clearance.closing_speed, true});
-  }
-  if (places.empty()) {
-    places.emplace_back().distance = clearance.margin;
-    places.back().tissue = parameters_.tissue_speed;
-  }
-  return places;
-}
-
-Vector3d ToolGuard::retreat(const std::string& name, const Organ& organ, const Place& place) const {
+/// The way out. `normal`: from tool to organ; zero: not known, or the organ meets the tool's axis.
+Vector3d ToolGuard::retreat(const std::string& name, const Organ& organ,
+                            const Vector3d& normal) const {
   const ToolPlacement& placement = organ.answer->placement;
-  const bool is_inside_out = is_wrong(name, organ, placement.tip);
-  const bool has_shaft = tool_.radius > 0.0;
-  const bool pierces = !placement.crossings.empty() || (place.is_known && place.normal.isZero(0.0));
-  if (has_shaft && (is_inside_out || pierces)) {
-    return is_wrong(name, organ, placement.trocar) ? Vector3d::Zero() : organ.outward;
-  }
-  const bool is_unknown = is_inside_out && placement.tip == ToolPlacement::UNKNOWN;
+  const bool is_inside_out = is_wrong(name, organ, placement.tip), has_shaft = tool_.radius > 0.0;
   if (has_shaft && is_wrong(name, organ, placement.trocar)) return Vector3d::Zero();
-  return is_unknown ? Vector3d::Zero() : is_inside_out ? place.normal : Vector3d(-place.normal);
+  if (has_shaft && (is_inside_out || normal.isZero(0.0) || !placement.crossings.empty())) {
+    return organ.outward;
+  }
+  if (!is_inside_out) return -normal;
+  return placement.tip == ToolPlacement::UNKNOWN ? Vector3d::Zero() : normal;
 }
 
-/// Whether the tool may move along `chosen.retreat` as far as another organ is concerned: it is far
+/// Whether the tool may move along `chosen.retreat` as far as another place is concerned: it is far
 /// enough, or its own way out has the same direction.
-bool ToolGuard::lets_retreat(const GuardState& chosen, const GuardState& other) const {
-  if (other.speed_scale * parameters_.max_speed >= parameters_.retreat_speed) return true;
-  return chosen.header.frame_id == other.header.frame_id &&
-         to_eigen(other.retreat).squaredNorm() > 0.0 &&
-         to_eigen(chosen.retreat).dot(to_eigen(other.retreat)) >= 0.0;
+bool ToolGuard::lets_retreat(const GuardState& chosen, const Verdict& other) const {
+  const Vector3d way = to_eigen(other.state.retreat);
+  return other.approach >= parameters_.retreat_speed ||
+         (chosen.header.frame_id == other.state.header.frame_id && !way.isZero(0.0) &&
+          to_eigen(chosen.retreat).dot(way) >= 0.0);
 }
 
 /// [m/s] the speed from which the tool stops in time, less that of the tissue. See GuardState.msg,
 /// and the class.
-double ToolGuard::allowed_speed(const Place& place, double now) const {
+double ToolGuard::allowed_speed(double distance, double tissue, double now) const {
   const double a = parameters_.deceleration, T = parameters_.latency;
-  const double room = place.distance - parameters_.error;
+  const double room = distance - parameters_.error;
   if (!(room > 0.0)) return 0.0;
   // [m] how far tool and tissue come together until the tool has stopped from this speed
   const auto way = [&](double speed) {
-    double sum = speed * T + 0.5 * speed * speed / a;
-    for (std::size_t i = 0; i < sent_.size(); ++i) {
-      const double end = i + 1 < sent_.size() ? sent_[i + 1].start : now;
-      const double length = end - std::max(sent_[i].start, now - T);
-      sum += std::max(0.0, length) * std::max(0.0, sent_[i].value + place.tissue - speed);
+    double sum = speed * T + 0.5 * speed * speed / a, end = now;
+    for (auto sent = sent_.rbegin(); sent != sent_.rend() && end > now - T; ++sent) {
+      const double length = end - std::max(sent->first, now - T);
+      sum += length * std::max(0.0, sent->second + tissue - speed);
+      end = sent->first;
     }
     return sum;
   };
-  double highest = std::sqrt(a * a * T * T + 2.0 * a * room) - a * T;
-  if (way(highest) > room * (1.0 + 1e-9)) {
-    double lowest = 0.0;
-    for (int i = 0; i < 40; ++i) {
-      const double middle = 0.5 * (lowest + highest);
-      (way(middle) > room ? highest : lowest) = middle;
-    }
-    highest = lowest;
+  double lowest = 0.0, highest = std::sqrt(a * a * T * T + 2.0 * a * room) - a * T;
+  if (way(highest) <= room * (1.0 + 1e-9)) return std::max(0.0, highest - tissue);
+  for (int i = 0; i < 40; ++i) {
+    const double middle = 0.5 * (lowest + highest);
+    (way(middle) > room ? highest : lowest) = middle;
   }
-  return std::max(0.0, highest - place.tissue);
+  return std::max(0.0, lowest - tissue);
 }
 
 /// Lets the scale fall at once, and rise to the lowest one of the last hold_sec.
 void ToolGuard::hold(GuardState& state, double now) {
-  while (!recent_.empty() && recent_.back().scale >= state.speed_scale) recent_.pop_back();
-  recent_.push_back({now, state.speed_scale, state.reason});
-  while (recent_.size() > 1 && recent_.front().time <= now - parameters_.hold_sec) {
-    recent_.pop_front();
+  while (!recent_.empty() && recent_.back().second.speed_scale >= state.speed_scale) {
+    recent_.pop_back();
   }
+  recent_.emplace_back(now, state);
+  while (recent_.size() > 1 && recent_[0].first <= now - parameters_.hold_sec) recent_.pop_front();
   if (recent_.size() > 1) {
-    state.speed_scale = recent_.front().scale;
-    state.reason = "held: " + recent_.front().reason;
+    state.speed_scale = recent_[0].second.speed_scale;
+    state.reason = "held: " + recent_[0].second.reason;
   }
   state.reason = plain_text(state.reason, kLongestMessage);
   state.stage = state.speed_scale == 0.0   ? GuardState::STOP
@@ -284,13 +271,15 @@ void ToolGuard::hold(GuardState& state, double now) {
 }
 
 void ToolGuard::note_sent(double speed, double now) {
-  double start = now;
-  while (!sent_.empty() && sent_.back().value <= speed) {
-    start = sent_.back().start;
+  double since = now;
+  while (!sent_.empty() && sent_.back().second <= speed) {
+    since = sent_.back().first;
     sent_.pop_back();
   }
-  sent_.push_back({start, speed});
-  while (sent_.size() > 1 && sent_[1].start <= now - parameters_.latency) sent_.pop_front();
+  // An entry stays for a part of the latency at least, so that way() adds few.
+  const bool is_early = !sent_.empty() && now - sent_.back().first < parameters_.latency / 64.0;
+  if (!is_early) sent_.emplace_back(since, speed);
+  while (sent_.size() > 1 && sent_[1].first <= now - kHighestLatency) sent_.pop_front();
 }
 
 }  // namespace organ_collision

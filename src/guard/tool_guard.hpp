@@ -9,6 +9,7 @@
 #include <deque>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "guard_parameters.hpp"
@@ -60,34 +61,24 @@ class ToolGuard {
     bool listed = false;
     bool closed = true;  ///< its surface, if it is listed
   };
-  /// The nearest place of a link that must not touch.
-  struct Place {
-    double distance = kUnlimited;  ///< [m]
-    double tissue = 0.0;           ///< [m/s] at which the tissue comes
-    int link = -1;
-    geometry_msgs::Point on_tool = {}, on_organ = {};
-    Eigen::Vector3d normal{0.0, 0.0, 0.0};  ///< from tool to organ; zero: not known
-    double closing_speed = 0.0;             ///< [m/s]
-    bool is_known = false;                  ///< false: a bound beyond which the tool is
-  };
-  struct Spell {
-    double start, value;
-  };
-  struct Sample {
-    double time, scale;
-    std::string reason;
+  /// What one place of the tool allows, or one organ. An empty reason is filled in later.
+  struct Verdict {
+    GuardState state;
+    double bound = 0.0;     ///< [m] the tool is not nearer to tissue
+    double tissue = 0.0;    ///< [m/s] at which the tissue comes
+    double approach = 0.0;  ///< [m/s] at which the tool may approach the place
   };
 
-  GuardState judge(const std::string& name, const Organ& organ, GuardTime now) const;
+  void judge(const std::string& name, const Organ& organ, GuardTime now,
+             std::vector<Verdict>& verdicts) const;
   std::string untrusted(const Organ& organ, GuardTime now) const;
   std::string forbidden(const std::string& name, const Organ& organ) const;
   bool is_wrong(const std::string& name, const Organ& organ, std::uint8_t side) const;
   bool may_touch(const ContactArray& answer, int link) const;
-  std::string link_name(const ContactArray& answer, int link) const;
-  std::vector<Place> places(const ContactArray& answer) const;
-  Eigen::Vector3d retreat(const std::string& name, const Organ& organ, const Place& place) const;
-  bool lets_retreat(const GuardState& chosen, const GuardState& other) const;
-  double allowed_speed(const Place& place, double now) const;
+  Eigen::Vector3d retreat(const std::string& name, const Organ& organ,
+                          const Eigen::Vector3d& normal) const;
+  bool lets_retreat(const GuardState& chosen, const Verdict& other) const;
+  double allowed_speed(double distance, double tissue, double now) const;
   void hold(GuardState& state, double now);
   void note_sent(double speed, double now);
 
@@ -95,10 +86,11 @@ class ToolGuard {
   ToolInfo tool_;
   std::map<std::string, Organ> organs_;
   bool has_list_ = false;
-  std::deque<Sample> recent_;  ///< the lowest scales of the last hold_sec, rising
-  /// For each time of the last `latency`, the highest speed [m/s] of all states that were sent from
-  /// then on. It falls with time.
-  std::deque<Spell> sent_;
+  /// When [s] the lowest scales of the last hold_sec were decided, and the states. They rise.
+  std::deque<std::pair<double, GuardState>> recent_;
+  /// From when on [s], and a speed [m/s]: at least the highest of all states that were sent from
+  /// then on. The speeds fall.
+  std::deque<std::pair<double, double>> sent_;
 };
 
 }  // namespace organ_collision

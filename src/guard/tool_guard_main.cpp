@@ -6,12 +6,9 @@
 #include <organ_collision/ListTools.h>
 #include <ros/names.h>
 #include <ros/ros.h>
-#include <tf2/exceptions.h>
 #include <tf2_msgs/TFMessage.h>
-#include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 
-#include <array>
 #include <chrono>
 
 #include "common/messages/checked_messages.hpp"
@@ -23,41 +20,36 @@
 namespace organ_collision {
 namespace {
 
-using Eigen::Vector3d;
-
 constexpr char kProgram[] = "tool_guard", kState[] = "state";
 /// [messages] Half a second of answers at 1 kHz about two organs. If more wait, some are lost,
 /// which stops the tools.
 constexpr std::uint32_t kAnswerQueue = 1000;
-constexpr double kWatchPeriod = 0.02;  ///< [s] of states without answers
-constexpr double kListPeriod = 0.5;    ///< [s] between two questions for organs and tools
+constexpr double kWatchPeriod = 0.005;   ///< [s] between two looks whether a state is due
+constexpr double kLongestWait = 0.0175;  ///< [s] after which it is: 50 times a second
+constexpr double kListPeriod = 0.5;      ///< [s] between two questions for organs and tools
 
 /// scripts/make_reference makes doc/reference/nodes.md of it, and a test compares both.
 ProgramHelp tool_guard_help() {
   ProgramHelp help{
       kProgram,
       "Watches the clearances, sides and contacts of the collision node, and says how fast each "
-      "tool may go on. It is not a safety-rated function. The names below are private to the node "
-      "(~), whose default name is /" +
-          std::string(kProgram) + "."};
+      "tool may go on. It is not a safety-rated function. The names below are private (~)."};
   help.subscribed = {
       {ros::names::append(names::kNode, names::kContacts), message_type<ContactArray>(),
-       "the answers. The parameter collision_node replaces organ_collision. The services "
-       "list_organs and list_tools of the same node are asked twice a second"},
+       "the answers. The parameter collision_node replaces organ_collision. Its services "
+       "list_organs and list_tools are asked twice a second"},
       {"/tf, /tf_static", message_type<tf2_msgs::TFMessage>(),
        "where trocar and tip are: the way out of tissue that a shaft pierces"}};
   help.published = {
       {kState, message_type<GuardState>(),
-       "how fast a tool may go on, and why: at each answer about the tool, and 50 times a second "
-       "without answers"},
+       "how fast a tool may go on, and why: at each answer about it, and without answers 50 times "
+       "a second"},
       {"/diagnostics", message_type<diagnostic_msgs::DiagnosticArray>(),
-       "for each tool its stage, its reason and the states that were sent; lost and unreadable "
-       "answers; names in keep and touch_allowed that no organ has"}};
+       "for each tool its speed_scale, and why it stops; lost and unreadable answers; names in "
+       "keep and touch_allowed that no organ has"}};
   help.services = {LiveParameters::help()};
   help.parameters = parameter_help<GuardParameters>();
-  help.further =
-      "roslaunch organ_collision tool_guard.launch starts it beside a collision node. "
-      "doc/guard.md explains what it guarantees, and what it does not.";
+  help.further = "doc/guard.md explains what it guarantees, and what it does not.";
   return help;
 }
 
@@ -83,21 +75,26 @@ class GuardNode {
                            run_in_thread_of(queue_, [&] { table_.change(changes); });
                          }) {
     for (const std::string& sentence : parameters_.misspelt) ROS_WARN("%s", sentence.c_str());
-    for (const std::string& tool : parameters_.tools) guard_of(tool);
+    for (const std::string& tool : parameters_.tools) {
+      ToolInfo info;
+      info.name = tool;
+      tools_.try_emplace(tool, parameters_, info);
+    }
     states_ = private_node_.advertise<GuardState>(kState, 100);
     answers_ = subscribe_checked<ContactArray>(
         node_, ros::names::append(collision_node_, names::kContacts), kAnswerQueue,
         [this](const auto& event) { take(event); }, rejected_);
     diagnostics_.updater().add("tools", this, &GuardNode::diagnose);
     live_parameters_.advertise();
-    watch_ = node_.createWallTimer(ros::WallDuration(kWatchPeriod),
-                                   [this](const ros::WallTimerEvent&) { watch(); });
+    watch_ = node_.createWallTimer(ros::WallDuration(kWatchPeriod), [this](const auto&) {
+      const GuardTime now = present();
+      for (auto& [name, tool] : tools_) {
+        if (now.steady - tool.sent > kLongestWait) send(tool, now);
+      }
+    });
     ask_ = on_queue(node, polling_.queue())
-               .createWallTimer(ros::WallDuration(kListPeriod),
-                                [this](const ros::WallTimerEvent&) { ask(); });
+               .createWallTimer(ros::WallDuration(kListPeriod), [this](const auto&) { ask(); });
   }
-  GuardNode(const GuardNode&) = delete;
-  GuardNode& operator=(const GuardNode&) = delete;
   ~GuardNode() {
     queue_.disable();
     queue_.clear();
@@ -109,165 +106,134 @@ class GuardNode {
   }
 
  private:
-  struct Guarded {
-    ToolGuard guard;
-    double sent = 0.0;                      ///< [s] when the last state was sent
-    GuardState last = {};                   ///< and which
-    std::array<std::uint64_t, 3> stages{};  ///< how many states were sent, by stage
+  struct Guarded : ToolGuard {
+    using ToolGuard::ToolGuard;
+    double sent = 0.0;     ///< [s] when the last state was sent
+    GuardState last = {};  ///< and which
   };
-
-  Guarded& guard_of(const std::string& name) {
-    ToolInfo info;
-    info.name = name;
-    return tools_.try_emplace(name, Guarded{ToolGuard(parameters_, info)}).first->second;
-  }
 
   void take(const ros::MessageEvent<const ContactArray>& event) {
     const ContactArray::ConstPtr& answer = event.getConstMessage();
     const auto tool = tools_.find(answer->tool);
     const GuardTime now = present();
-    if (tool != tools_.end()) tool->second.guard.take(answer, outward(*answer, tool->second), now);
-    // roscpp numbers the messages of a publisher. A restarted one begins anew.
-    const std::string sender = event.getPublisherName();
-    if (sender == sender_ && answer->header.seq > seq_ + 1) {
-      lost_ += answer->header.seq - seq_ - 1;
-      for (auto& [name, guarded] : tools_) guarded.guard.lose_answers();
+    if (tool != tools_.end()) {
+      tool->second.take(answer, outward(*answer, tool->second.tool()), now);
     }
-    sender_ = sender;
-    seq_ = answer->header.seq;
+    // roscpp numbers the messages of a publisher. A restarted one begins anew.
+    const std::uint32_t number = answer->header.seq;
+    std::uint32_t& last = numbers_.try_emplace(event.getPublisherName(), number).first->second;
+    if (number > last + 1) {
+      lost_ += number - last - 1;
+      for (auto& [name, guarded] : tools_) guarded.lose_answers();
+    }
+    last = number;
     if (tool != tools_.end()) send(tool->second, now);
   }
 
-  void watch() {
-    const GuardTime now = present();
-    for (auto& [name, guarded] : tools_) {
-      if (now.steady - guarded.sent > 0.5 * kWatchPeriod) send(guarded, now);
-    }
+  void send(Guarded& tool, GuardTime now) {
+    tool.last = tool.decide(now);
+    tool.sent = now.steady;
+    states_.publish(tool.last);
+    if (tool.last.stage != GuardState::STOP) return;
+    stops_.add(tool.last.tool, "tool '" + tool.last.tool + "' stops: " + tool.last.reason);
   }
 
-  void send(Guarded& guarded, GuardTime now) {
-    guarded.last = guarded.guard.decide(now);
-    guarded.sent = now.steady;
-    states_.publish(guarded.last);
-    ++guarded.stages.at(guarded.last.stage);
-    if (guarded.last.stage != GuardState::STOP) return;
-    stops_.add(guarded.last.tool, "tool '" + guarded.last.tool + "' stops: " + guarded.last.reason);
-  }
-
-  /// From the tip of a shaft to its trocar, if the way out of the organ may need it.
-  Vector3d outward(const ContactArray& answer, const Guarded& guarded) const {
-    const ToolInfo& tool = guarded.guard.tool();
+  /// From the tip of a shaft to its trocar, if the way out of the organ may need it. The latest
+  /// transforms serve, because those of the answer's stamp may come after the answer.
+  Eigen::Vector3d outward(const ContactArray& answer, const ToolInfo& tool) const {
     const ToolPlacement& placement = answer.placement;
     if (placement.tip == ToolPlacement::OUTSIDE && placement.crossings.empty()) return {0, 0, 0};
-    if (tool.trocar_frame.empty() || tool.tip_frame.empty()) return {0, 0, 0};
     const auto place = [&](const std::string& frame, const geometry_msgs::Vector3& offset) {
-      return Vector3d(to_eigen(transforms_
-                                   .lookupTransform(tf_frame(answer.header.frame_id),
-                                                    tf_frame(frame), answer.header.stamp)
-                                   .transform) *
-                      to_eigen(offset));
+      const auto found = transforms_.lookupTransform(tf_frame(answer.header.frame_id),
+                                                     tf_frame(frame), ros::Time(0));
+      const double age = seconds_between(found.header.stamp, answer.header.stamp);
+      const bool moves = !found.header.stamp.isZero();
+      if (moves && age > parameters_.longest_age()) throw tf2::ExtrapolationException("old");
+      return Eigen::Vector3d(to_eigen(found.transform) * to_eigen(offset));
     };
     try {
-      const Vector3d axis =
-          place(tool.trocar_frame, tool.trocar_offset) - place(tool.tip_frame, tool.tip_offset);
-      return axis.isZero(0.0) ? axis : axis.normalized();
-    } catch (const tf2::TransformException&) {
+      return (place(tool.trocar_frame, tool.trocar_offset) - place(tool.tip_frame, tool.tip_offset))
+          .normalized();
+    } catch (const tf2::TransformException&) {  // also if the tool has no such frame
       return {0, 0, 0};
     }
   }
 
   /// Asks for the lists, in a thread of its own, because the answers may take long or never come.
   void ask() {
-    const ros::NodeHandle node(collision_node_);
-    if (!list_tools_.isValid()) {
-      list_tools_ = ros::NodeHandle(node).serviceClient<ListTools>(names::kListTools, true);
-    }
-    if (!list_organs_.isValid()) {
-      list_organs_ = ros::NodeHandle(node).serviceClient<ListOrgans>(names::kListOrgans, true);
-    }
     const double asked = present().steady;
+    const ros::NodeHandle node(collision_node_);
     ListTools tools;
     ListOrgans organs;
-    if (!list_tools_.call(tools) || !list_organs_.call(organs)) return;
-    bool has_placement = true;
-    if (!is_checked_) node.getParam("publish_placement", has_placement);
-    call_later(queue_, [this, tools, organs, asked, has_placement] {
-      if (!is_checked_) check(tools.response.tools, has_placement);
-      is_checked_ = true;
-      take(tools.response.tools, organs.response.organs, asked);
+    if (!ros::service::call(node.resolveName(names::kListTools), tools) ||
+        !ros::service::call(node.resolveName(names::kListOrgans), organs)) {
+      return;
+    }
+    const bool has_placement = node.param("publish_placement", true);
+    call_later(queue_, [=, tools = tools.response.tools, organs = organs.response.organs] {
+      take(tools, organs, asked, has_placement);
     });
   }
 
+  void take(const std::vector<ToolInfo>& tools, const std::vector<OrganInfo>& organs, double asked,
+            bool has_placement) {
+    if (!is_checked_) check(tools, has_placement);
+    is_checked_ = true;
+    for (const ToolInfo& tool : tools) {
+      if (!is_guarded(tool)) continue;
+      tools_.try_emplace(tool.name, parameters_, tool).first->second.set_tool(tool);
+    }
+    for (auto& [name, tool] : tools_) tool.set_organs(organs, asked);
+    std::vector<std::string> legal;
+    for (const OrganInfo& organ : organs) legal.push_back(organ.name);
+    unknown_.clear();
+    for (const auto& [organ, side] : parameters_.keep) note_unknown("~keep", organ, legal);
+    for (const auto& [organ, link] : parameters_.touch_allowed) {
+      note_unknown("~touch_allowed", organ, legal);
+    }
+  }
+
   /// Throws ParameterError if the guard cannot watch the tools.
-  void check(const std::vector<ToolInfo>& tools, bool has_placement) const {
+  void check(const std::vector<ToolInfo>& tools, bool has_placement) {
     std::vector<std::string> names, links{kShaftName};
     for (const ToolInfo& tool : tools) {
       names.push_back(tool.name);
       links.insert(links.end(), tool.links.begin(), tool.links.end());
-      const std::string missing = ToolGuard::missing_in(tool);
-      if (!is_guarded(tool.name) || missing.empty()) continue;
+      const std::string missing = is_guarded(tool) ? ToolGuard::missing_in(tool) : "";
+      if (missing.empty()) continue;
       throw ParameterError(collision_node_ + "/tools: '" + tool.name + "' " + missing);
     }
-    if (names.empty()) throw ParameterError(collision_node_ + "/tools is empty");
+    if (tools.empty()) throw ParameterError(collision_node_ + "/tools is empty");
     if (!has_placement) {
-      throw ParameterError(collision_node_ +
-                           "/publish_placement is false, so that no tool's side is known");
+      throw ParameterError(collision_node_ + "/publish_placement is false; it must be true");
     }
-    const auto require = [](const std::string& parameter, const std::string& name,
-                            const std::vector<std::string>& legal) {
-      if (std::find(legal.begin(), legal.end(), name) != legal.end()) return;
-      throw ParameterError(parameter + " has '" + name + "'; nearest is '" +
-                           nearest_name(name, legal) + "', legal are " + listed(legal));
-    };
-    for (const std::string& tool : parameters_.tools) require("~tools", tool, names);
+    for (const std::string& tool : parameters_.tools) note_unknown("~tools", tool, names);
     for (const auto& [organ, link] : parameters_.touch_allowed) {
-      require("~touch_allowed", link, links);
+      note_unknown("~touch_allowed", link, links);
     }
+    if (!unknown_.empty()) throw ParameterError(unknown_[0]);
   }
 
-  bool is_guarded(const std::string& tool) const {
-    return parameters_.tools.empty() || tools_.count(tool) > 0;
+  bool is_guarded(const ToolInfo& tool) const {
+    return parameters_.tools.empty() || tools_.count(tool.name) > 0;
   }
 
-  void take(const std::vector<ToolInfo>& tools, const std::vector<OrganInfo>& organs,
-            double asked) {
-    for (const ToolInfo& tool : tools) {
-      if (is_guarded(tool.name)) guard_of(tool.name).guard.set_tool(tool);
-    }
-    for (auto& [name, guarded] : tools_) guarded.guard.set_organs(organs, asked);
-    std::vector<std::string> legal;
-    for (const OrganInfo& organ : organs) legal.push_back(organ.name);
-    unknown_.clear();
-    const auto look = [&](const char* parameter, const std::string& organ) {
-      if (legal.empty() || std::find(legal.begin(), legal.end(), organ) != legal.end()) return;
-      unknown_.push_back(std::string(parameter) + " has the organ '" + organ +
-                         "', which the collision node has not; nearest is '" +
-                         nearest_name(organ, legal) + "'");
-    };
-    for (const auto& [organ, side] : parameters_.keep) look("~keep", organ);
-    for (const auto& [organ, link] : parameters_.touch_allowed) look("~touch_allowed", organ);
+  void note_unknown(const std::string& parameter, const std::string& name,
+                    const std::vector<std::string>& legal) {
+    if (legal.empty() || std::count(legal.begin(), legal.end(), name) > 0) return;
+    unknown_.push_back(parameter + " has '" + name + "'; " + suggestion(name, legal));
   }
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
-    using diagnostic_msgs::DiagnosticStatus;
-    status.summary(DiagnosticStatus::OK, "watching");
-    if (!is_checked_) status.summary(DiagnosticStatus::WARN, collision_node_ + " has not answered");
-    for (const auto& [name, guarded] : tools_) {
-      const auto& stages = guarded.stages;
-      status.add(name + ", states CLEAR, SLOW, STOP", std::to_string(stages[0]) + ", " +
-                                                          std::to_string(stages[1]) + ", " +
-                                                          std::to_string(stages[2]));
-      status.add(name + ", speed_scale", guarded.last.speed_scale);
-      if (guarded.last.stage != GuardState::STOP) continue;
-      status.mergeSummary(DiagnosticStatus::WARN, "tool '" + name + "': " + guarded.last.reason);
+    status.summary(is_checked_ ? 0 : 1, is_checked_ ? "watching" : collision_node_ + " is silent");
+    for (const auto& [name, tool] : tools_) {
+      status.add(name + ", speed_scale", tool.last.speed_scale);
+      if (tool.last.stage == GuardState::STOP)
+        status.mergeSummary(1, name + ": " + tool.last.reason);
     }
     status.add("lost answers", lost_);
-    for (const std::string& sentence : unknown_) {
-      status.mergeSummary(DiagnosticStatus::WARN, sentence);
-    }
-    for (const std::string& sentence : parameters_.misspelt) {
-      status.mergeSummary(DiagnosticStatus::WARN, sentence);
-    }
+    for (const std::string& sentence : unknown_) status.mergeSummary(1, sentence);
+    for (const std::string& sentence : parameters_.misspelt) status.mergeSummary(1, sentence);
     show_failures("rejected", rejected_, status);
   }
 
@@ -281,14 +247,12 @@ class GuardNode {
   const std::string collision_node_;
   FailureLog rejected_, stops_;
   std::map<std::string, Guarded> tools_;
-  std::vector<std::string> unknown_;  ///< sentences about names of organs
-  std::atomic<bool> is_checked_{false};
-  std::string sender_;      ///< of the last answer
-  std::uint32_t seq_ = 0;   ///< its number
-  std::uint64_t lost_ = 0;  ///< answers
+  std::vector<std::string> unknown_;  ///< sentences about unknown names
+  bool is_checked_ = false;
+  std::map<std::string, std::uint32_t> numbers_;  ///< of the last answers, by sender
+  std::uint64_t lost_ = 0;                        ///< answers
   ros::Publisher states_;
   ros::Subscriber answers_;
-  ros::ServiceClient list_tools_, list_organs_;  ///< of the thread that asks
   ros::WallTimer watch_, ask_;
   Diagnostics diagnostics_;
   LiveParameters live_parameters_;

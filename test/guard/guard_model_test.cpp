@@ -15,8 +15,8 @@
 namespace organ_collision {
 namespace {
 
-constexpr double kStep = 0.0005;       ///< [s] of the model
-constexpr double kWatchPeriod = 0.02;  ///< [s] of states without answers
+constexpr double kStep = 0.0005;         ///< [s] of the model
+constexpr double kLongestWait = 0.0225;  ///< [s] between two states without answers
 
 enum class Fault { kNone, kNodeEnds, kGuardEnds };
 
@@ -27,14 +27,14 @@ struct Outcome {
   double least = kUnlimited;    ///< [m]
 };
 
-/// One tool that moves towards tissue along a line. Delays and tissue are drawn once; wishes of the
-/// operator change.
+/// One tool that moves towards tissue along a line. The tissue's speed is drawn once. Wishes of the
+/// operator change, and so do the delays of the messages, whose order is kept.
 class Approach {
  public:
   explicit Approach(unsigned seed) : random_(seed) {
     p_.deceleration = uniform(0.5, 10.0);
     p_.latency = uniform(0.12, 0.4);
-    p_.watch_time = uniform(0.02, 0.1);
+    p_.watch_time = uniform(0.03, 0.1);
     p_.error = uniform(1e-4, 3e-3);
     p_.max_speed = uniform(0.05, 0.5);
     p_.hold_sec = one_of(2) ? 0.0 : uniform(0.0, 0.2);
@@ -45,6 +45,7 @@ class Approach {
     answer_delay_ = uniform(0.0, 0.9 * p_.longest_age());
     state_delay_ = uniform(0.0, (p_.latency - p_.watch_time) / 3.0);
     period_ = uniform(0.001, 0.016);
+    shape_period_ = uniform(0.001, 0.05);
     noise_ = one_of(2) ? 0.0 : p_.error;
     fault_ = one_of(2) ? Fault::kNone : one_of(2) ? Fault::kNodeEnds : Fault::kGuardEnds;
     fault_time_ = uniform(0.0, 2.0);
@@ -68,21 +69,25 @@ class Approach {
     return outcome;
   }
 
-  bool has_fault() const { return fault_ != Fault::kNone; }
   /// Whether the operator pushes on to tissue at rest whose distance is known.
   bool pushes_to_rest() const {
-    return steady_push_ && tissue_ == 0.0 && noise_ == 0.0 && !has_fault();
+    return steady_push_ && tissue_ == 0.0 && noise_ == 0.0 && fault_ == Fault::kNone;
   }
-  bool may_retreat_from_tissue() const { return tissue_ <= p_.retreat_speed; }
+  /// Whether tissue may touch a tool that does not go on: it comes faster than the tool may go
+  /// back, or nobody tells the tool any more where back is.
+  bool may_be_touched() const {
+    return tissue_ > p_.retreat_speed ||
+           (tissue_ > 0.0 && fault_ != Fault::kNone && is_over(fault_));
+  }
   double error() const { return p_.error; }
   std::string in_words() const {
     std::ostringstream text;
     text.precision(17);
     text << "a " << p_.deceleration << " T " << p_.latency << " watch " << p_.watch_time << " e "
          << p_.error << " max " << p_.max_speed << " hold " << p_.hold_sec << " tissue " << tissue_
-         << " delays " << answer_delay_ << " " << state_delay_ << " period " << period_ << " noise "
-         << noise_ << " fault " << static_cast<int>(fault_) << " at " << fault_time_ << "; at "
-         << time_ << " speed " << speed_;
+         << " delays " << answer_delay_ << " " << state_delay_ << " periods " << period_ << " "
+         << shape_period_ << " noise " << noise_ << " fault " << static_cast<int>(fault_) << " at "
+         << fault_time_ << "; at " << time_ << " speed " << speed_;
     return text.str();
   }
 
@@ -97,6 +102,11 @@ class Approach {
     return std::uniform_real_distribution<>(low, high)(random_);
   }
   unsigned one_of(unsigned count) { return static_cast<unsigned>(random_() % count); }
+  /// When a message that takes `delay` arrives: not before the one that was sent before it.
+  template <typename Queue>
+  double arrival(const Queue& queue, double delay) const {
+    return std::max(time_ + delay, queue.empty() ? 0.0 : queue.back().arrives);
+  }
   bool is_over(Fault fault) const { return fault_ == fault && time_ >= fault_time_; }
   ros::Time ros_time() const { return ros::Time(100.0 + time_); }
 
@@ -104,21 +114,24 @@ class Approach {
   void answer() {
     if (time_ < next_answer_ || is_over(Fault::kNodeEnds)) return;
     next_answer_ += period_;
+    if (time_ >= shape_time_ + shape_period_) shape_time_ = time_;
     auto answer = boost::make_shared<ContactArray>();
     answer->header.stamp = ros_time();
+    answer->mesh_stamp = ros::Time(100.0 + shape_time_);
     answer->organ = "tissue";
     answer->placement.tip = ToolPlacement::OUTSIDE;
     Clearance& clearance = answer->clearance;
     clearance.state = Clearance::KNOWN;
     clearance.margin = 10.0;
-    clearance.distance = distance_ + uniform(-noise_, noise_);
+    const double since_shape = tissue_ * (time_ - shape_time_);
+    clearance.distance = distance_ + since_shape + uniform(-noise_, noise_);
     clearance.normal.x = 1.0;
     clearance.normal_defined = 1;
     Contact& near = answer->near.emplace_back();
     near.depth = -clearance.distance;
     near.normal.x = 1.0;
     near.velocity.x = -tissue_;
-    answers_.push_back({time_ + answer_delay_, answer});
+    answers_.push_back({arrival(answers_, uniform(0.0, answer_delay_)), answer});
   }
 
   void guard() {
@@ -129,9 +142,10 @@ class Approach {
       answers_.pop_front();
       decides = true;
     }
-    if (!decides && time_ < last_sent_ + kWatchPeriod) return;
+    if (!decides && time_ < last_sent_ + kLongestWait) return;
     last_sent_ = time_;
-    states_.push_back({time_ + state_delay_, guard_.decide({time_, ros_time()})});
+    states_.push_back(
+        {arrival(states_, uniform(0.0, state_delay_)), guard_.decide({time_, ros_time()})});
   }
 
   /// The tool obeys: it speeds up at once, and slows down with its deceleration.
@@ -164,13 +178,13 @@ class Approach {
                      return tool;
                    }()};
   double tissue_ = 0.0, distance_ = 0.0, answer_delay_ = 0.0, state_delay_ = 0.0, period_ = 0.0,
-         noise_ = 0.0;
+         shape_period_ = 0.0, noise_ = 0.0;
   Fault fault_ = Fault::kNone;
   double fault_time_ = 0.0;
   bool steady_push_ = false;
 
   double time_ = 0.0, next_answer_ = 0.0, last_sent_ = -1.0, heard_ = -1.0, next_wish_ = 0.0,
-         wish_ = 0.0, speed_ = 0.0;
+         wish_ = 0.0, speed_ = 0.0, shape_time_ = 0.0;
   std::deque<Delayed<ContactArray::ConstPtr>> answers_;
   std::deque<Delayed<GuardState>> states_;
   GuardState state_;
@@ -185,20 +199,20 @@ TEST(GuardModel, AToolThatObeysDoesNotTouch) {
     const Outcome outcome = approach.run(approach.pushes_to_rest() ? 12.0 : 3.0);
     ASSERT_FALSE(outcome.tool_touched) << seed << ": " << approach.in_words();
     touched_by_tissue += outcome.tissue_touched;
-    const bool is_excused = approach.has_fault() || !approach.may_retreat_from_tissue();
-    ASSERT_TRUE(is_excused || !outcome.tissue_touched) << seed << ": " << approach.in_words();
+    ASSERT_TRUE(approach.may_be_touched() || !outcome.tissue_touched)
+        << seed << ": " << approach.in_words();
     if (!approach.pushes_to_rest()) continue;
     ++pushed;
     unused = std::max(unused, outcome.least - approach.error());
   }
   std::printf(
       "%u approaches pushed on for 12 s to tissue at rest; the largest unused distance is %.3g m. "
-      "Fast tissue "
-      "touched %u tools that stood or went back\n",
+      "Fast "
+      "tissue touched %u tools that stood or went back\n",
       pushed, unused, touched_by_tissue);
   EXPECT_GT(pushed, 150u);
   EXPECT_GT(touched_by_tissue, 100u);
-  EXPECT_LT(unused, 1e-4);
+  EXPECT_LT(unused, 2e-4);
 }
 
 }  // namespace

@@ -42,6 +42,22 @@ TEST(GuardParameters, RowsAreTaken) {
   expect_words(misspelt[0], {"~touch_allowed[0]/links", "'link'"});
 }
 
+// The receiver of the states has these, too. Were one changed here alone, the receiver would move
+// the tool faster than the guard allows.
+TEST(GuardParameters, WhatTheReceiverHasAsWellIsNotLive) {
+  GuardParameters parameters;
+  const ParameterTable table = table_of(parameters);
+  for (const std::string name : {"max_speed", "retreat_speed", "watch_time"}) {
+    XmlRpcValue change;
+    change[name] = 0.05;
+    expect_words(refusal_by<ParameterError>([&] { table.change(change); }), {name});
+  }
+  XmlRpcValue change;
+  change["latency"] = 0.3;
+  table.change(change);
+  EXPECT_EQ(parameters.latency, 0.3);
+}
+
 TEST(GuardParameters, IllegalOnesAreNamedWithTheirValue) {
   const auto refusal = refusal_of<GuardParameters>;
   expect_words(refusal("tools", "hook"), {"~tools is the text 'hook'"});

@@ -1,111 +1,8 @@
 // What ToolGuard decides: each cause of STOP, the way out, and what is held.
-#include "guard/tool_guard.hpp"
-
-#include <gtest/gtest.h>
-
-#include <boost/make_shared.hpp>
-#include <cmath>
-#include <functional>
-
-#include "test/refusals.hpp"
+#include "tool_guard_fixture.hpp"
 
 namespace organ_collision {
 namespace {
-
-using Eigen::Vector3d;
-
-geometry_msgs::Vector3 vector(double x, double y, double z) {
-  geometry_msgs::Vector3 v;
-  v.x = x;
-  v.y = y;
-  v.z = z;
-  return v;
-}
-
-class ToolGuardTest : public testing::Test {
- protected:
-  ToolGuardTest() { parameters_.hold_sec = 0.0; }
-
-  static ToolInfo hook() {
-    ToolInfo tool;
-    tool.name = "hook";
-    tool.radius = 0.004;
-    tool.margin = 0.05;
-    tool.max_near = 1;
-    return tool;
-  }
-
-  GuardTime now() const { return {time_, ros::Time(1000.0 + time_)}; }
-
-  OrganInfo organ(const std::string& name, bool closed = true) const {
-    OrganInfo info;
-    info.name = name;
-    info.closed = closed;
-    return info;
-  }
-
-  /// An answer of this moment: the shaft is `distance` below tissue that comes at `tissue`.
-  ContactArray answer(double distance, double tissue = 0.0,
-                      const std::string& name = "liver") const {
-    ContactArray a;
-    a.header.frame_id = "world";
-    a.header.stamp = now().ros;
-    a.organ = name;
-    a.tool = tool_.name;
-    a.links = {"jaw"};
-    a.placement.tip = a.placement.trocar = ToolPlacement::OUTSIDE;
-    a.clearance.margin = tool_.margin;
-    a.clearance.state = distance > tool_.margin ? Clearance::BEYOND_MARGIN : Clearance::KNOWN;
-    if (a.clearance.state != Clearance::KNOWN) return a;
-    a.clearance.distance = distance;
-    a.clearance.face = 7;
-    a.clearance.link = -1;
-    a.clearance.normal = vector(0, 0, 1);
-    a.clearance.normal_defined = 1;
-    Contact& near = a.near.emplace_back();
-    near.face = 7;
-    near.link = -1;
-    near.depth = -distance;
-    near.normal = vector(0, 0, 1);
-    near.velocity = vector(0, 0, -tissue);
-    return a;
-  }
-
-  void take(const ContactArray& a) {
-    guard_.take(boost::make_shared<ContactArray>(a), outward_, now());
-  }
-  /// The state after an answer.
-  GuardState after(const ContactArray& a) {
-    take(a);
-    return guard_.decide(now());
-  }
-  /// Lets the answers become stale, until no state but STOP is in effect.
-  void rest() {
-    time_ += 1.0;
-    guard_.decide(now());
-    time_ += 1.0;
-  }
-  void list(const std::vector<OrganInfo>& organs) { guard_.set_organs(organs, time_); }
-
-  void expect_stop(const GuardState& state, const std::vector<std::string>& words) {
-    EXPECT_EQ(state.stage, GuardState::STOP) << state;
-    EXPECT_EQ(state.speed_scale, 0.0);
-    EXPECT_EQ(state.tool, "hook");
-    expect_words(state.reason, words);
-  }
-
-  /// [m/s] the speed of GuardState.msg
-  double formula(double distance) const {
-    const double a = parameters_.deceleration, T = parameters_.latency;
-    return std::sqrt(a * a * T * T + 2 * a * (distance - parameters_.error)) - a * T;
-  }
-
-  double time_ = 10.0;  ///< [s] of the steady clock
-  GuardParameters parameters_;
-  const ToolInfo tool_ = hook();
-  ToolGuard guard_{parameters_, tool_};
-  Vector3d outward_{0.0, 0.6, 0.8};
-};
 
 TEST_F(ToolGuardTest, TheScaleIsThatOfTheMessage) {
   list({organ("liver")});
@@ -178,6 +75,34 @@ TEST_F(ToolGuardTest, EachCauseStopsTheToolAndIsNamed) {
   }
 }
 
+TEST_F(ToolGuardTest, TheClosingSpeedIsThatOfTheClearance) {
+  list({organ("liver")});
+  ContactArray a = answer(0.01, 0.03);
+  a.clearance.closing_speed = 0.07;
+  EXPECT_EQ(after(a).closing_speed, 0.07);
+  // Farther tissue that comes faster decides.
+  Contact& fast = a.near.emplace_back(a.near[0]);
+  fast.face = 8;
+  fast.depth = -0.011;
+  fast.velocity = vector(0, 0, -0.3);
+  EXPECT_EQ(after(a).closing_speed, 0.3);
+}
+
+TEST_F(ToolGuardTest, AHigherLatencyCountsWhatWasSentBefore) {
+  list({organ("liver")});
+  parameters_.latency = 0.15;
+  after(answer(0.04));
+  time_ += 0.001;
+  after(answer(0.005));
+  for (int i = 0; i < 4; ++i) {
+    time_ += 0.05;
+    after(answer(0.005));
+  }
+  parameters_.latency = 0.5;
+  // In the last 0.5 s, the tool was allowed 0.1 m/s for 0.3 s, which is more than the 4 mm left.
+  EXPECT_EQ(after(answer(0.005)).stage, GuardState::STOP);
+}
+
 TEST_F(ToolGuardTest, SilenceStopsTheTool) {
   expect_stop(guard_.decide(now()), {"not told its organs"});
   list({});
@@ -215,6 +140,10 @@ TEST_F(ToolGuardTest, ARemovedOrganIsDroppedAndANewOneIsNot) {
   list({organ("liver")});
   time_ += 0.06;
   EXPECT_EQ(after(answer(0.04)).stage, GuardState::CLEAR);
+  expect_stop(after(answer(0.0005, 0.0, "colon")), {"'colon'"});
+  time_ += 0.01;
+  list({organ("liver")});
+  EXPECT_EQ(after(answer(0.04)).stage, GuardState::CLEAR) << "the organ near the tool is removed";
   const double asked = time_;
   time_ += 0.01;
   take(answer(0.0005, 0.0, "spleen"));
@@ -245,6 +174,27 @@ TEST_F(ToolGuardTest, RowsAllowTouchesOfOneLinkAndOneOrgan) {
   expect_stop(after(grasping("colon")), {"jaw touched", "'colon'"});
 }
 
+TEST_F(ToolGuardTest, AnAllowedLinkMayHideThatAnotherOneIsNear) {
+  parameters_.touch_allowed = {{"liver", "jaw"}};
+  list({organ("liver")});
+  const auto scale = [&](bool more, const std::vector<double>& near) {
+    rest();
+    ContactArray a = answer(0.002);
+    a.clearance.link = 0;
+    a.near.clear();
+    a.near_more = more;
+    for (const double distance : near) a.near.emplace_back().depth = -distance;  // of the jaw
+    return after(a).speed_scale;
+  };
+  const auto bound = [&](double distance) {
+    return std::max(0.0, formula(distance) - parameters_.tissue_speed) / 0.1;
+  };
+  EXPECT_NEAR(scale(false, {0.002}), std::min(1.0, bound(0.05)), 1e-9)
+      << "all near faces are listed";
+  EXPECT_NEAR(scale(true, {0.002, 0.02}), bound(0.02), 1e-9) << "others are as far as the last";
+  EXPECT_NEAR(scale(false, {}), bound(0.002), 1e-9) << "without max_near";
+}
+
 TEST_F(ToolGuardTest, SidesAreThoseOfKeep) {
   parameters_.keep = {{"colon", KeptSide::kInside}, {"net", KeptSide::kEither}};
   for (const bool closed : {true, false}) {
@@ -266,54 +216,6 @@ TEST_F(ToolGuardTest, SidesAreThoseOfKeep) {
       }
     }
   }
-}
-
-TEST_F(ToolGuardTest, TheWayOut) {
-  const auto way = [&](const std::function<void(ContactArray&)>& change) {
-    time_ += 1.0;
-    list({organ("liver")});
-    ContactArray a = answer(0.0005);
-    change(a);
-    const geometry_msgs::Vector3 r = after(a).retreat;
-    return Vector3d(r.x, r.y, r.z);
-  };
-  const Vector3d up(0, 0, 1), none(0, 0, 0);
-  const auto inside = [](auto& a) { a.placement.tip = ToolPlacement::INSIDE; };
-  const auto pierced = [](auto& a) { a.placement.crossings.resize(2); };
-  EXPECT_EQ(way([](auto&) {}), -up);
-  EXPECT_EQ(way(inside), outward_);
-  EXPECT_EQ(way(pierced), outward_);
-  EXPECT_EQ(way([](auto& a) { a.placement.tip = a.placement.trocar = ToolPlacement::INSIDE; }),
-            none);
-  EXPECT_EQ(way([](auto& a) { a.status = ContactArray::STALE_MESH; }), none);
-  EXPECT_EQ(way([](auto& a) { a.header.stamp -= ros::Duration(1.0); }), none);
-  EXPECT_EQ(way([](auto& a) { a.unresolved = 1; }), none);
-  ToolInfo free = tool_;
-  free.radius = 0.0;
-  guard_.set_tool(free);
-  EXPECT_EQ(way([](auto&) {}), -up);
-  EXPECT_EQ(way(inside), up) << "towards the nearest place, and through";
-  EXPECT_EQ(way([](auto& a) { a.placement.tip = ToolPlacement::UNKNOWN; }), none);
-  EXPECT_EQ(way([](auto& a) { a.clearance.normal_defined = 0, a.near.clear(); }), none);
-  parameters_.keep = {{"liver", KeptSide::kInside}};
-  EXPECT_EQ(way(inside), -up);
-  EXPECT_EQ(way([](auto&) {}), up);
-}
-
-TEST_F(ToolGuardTest, AnotherOrganMayCloseTheWayOut) {
-  list({organ("liver"), organ("colon")});
-  const auto out_beside = [&](double distance, double z, const std::string& frame) {
-    time_ += 1.0;
-    ContactArray other = answer(distance, 0.0, "colon");
-    other.clearance.normal = other.near[0].normal = vector(0, 0, z);
-    other.header.frame_id = frame;
-    take(other);
-    return after(answer(0.0005)).retreat.z;
-  };
-  EXPECT_EQ(out_beside(0.02, -1.0, "other"), -1.0) << "it is far";
-  EXPECT_EQ(out_beside(0.0012, -1.0, "world"), 0.0) << "it is on the other side";
-  EXPECT_EQ(out_beside(0.0012, 1.0, "world"), -1.0) << "it is on the same side";
-  EXPECT_EQ(out_beside(0.0012, 1.0, "other"), 0.0) << "its direction is not known";
 }
 
 TEST_F(ToolGuardTest, TheScaleFallsAtOnceAndRisesAfterATime) {
