@@ -60,7 +60,7 @@ class GuardTest(NodeStarter):
         self.hook = Hook(self.tf)
         self.begin_node()
         self.guard = self.start('/tool_guard', GUARD, 'tool_guard')
-        obedience = {'tool': 'hook', 'watch_time': GUARD['watch_time'], 'latest': GUARD['latency'] - GUARD['watch_time']}
+        obedience = {'tool': 'hook', 'watch_time': GUARD['watch_time'], 'latest': GUARD['latency']}
         self.obey = self.start('/obey_guard', obedience, 'obey_guard.py')
         self.hook.start()
         self.addCleanup(self.hook.join)
