@@ -104,6 +104,10 @@ class GuardTest(NodeStarter):
         self.process.wait()  # Its port may still accept connections.
         self.begin_node()
         self.wait_for_motion()
+        self.process.send_signal(signal.SIGSTOP)
+        self.assert_stops('the new node, SIGSTOP', ' s old', 'liver')
+        time.sleep(1.0)  # until the guard waits for the lists of the node
+        self.stop(self.guard)
 
     def test_the_guard_hangs_and_is_killed(self):
         self.wait_for_motion()
@@ -119,13 +123,6 @@ class GuardTest(NodeStarter):
         self.hook.sends = False
         self.assert_stops('transforms', 'liver')
 
-    def test_the_guard_ends_while_the_node_hangs(self):
-        self.wait_for_motion()
-        self.process.send_signal(signal.SIGSTOP)
-        self.assert_stops('node, SIGSTOP', ' s old')
-        time.sleep(1.0)  # until the guard waits for the lists of the node
-        self.stop(self.guard)
-
     def test_an_organ_is_removed_and_another_comes(self):
         self.wait_for_motion()
         self.node.bring('colon', BOX.moved(lambda v: (v[0] + 0.2, v[1], v[2])))
@@ -136,28 +133,23 @@ class GuardTest(NodeStarter):
         wait_until(lambda: self.states.last(lambda state: state.organ == 'colon' and state.stage != GuardState.STOP),
                    'only the colon is left')
 
-    def test_the_way_out_of_an_organ(self):
+    def test_speeds_and_the_way_out_of_an_organ(self):
         self.wait_for_motion()
+        self.hook.turn, self.hook.wish = 10.0, -0.001
+        wait_until(lambda: self.hook.message.twist.angular.x > 0.0, 'the tool turns')
+        self.assertLess(0.4 * self.hook.message.twist.angular.x, 0.1)
+        self.hook.turn = 0.0
+        change = rospy.ServiceProxy('/tool_guard/set_parameters', Reconfigure)
+        change(config=Config(doubles=[DoubleParameter(name='deceleration', value=0.001)]))
+        wait_until(lambda: self.states.last().speed_scale < 0.2, 'a lower speed')
+        shown = change(config=Config(doubles=[DoubleParameter(name='max_speed', value=0.01)])).config.doubles
+        self.assertNotIn('max_speed', [parameter.name for parameter in shown])
         self.hook.height, self.hook.wish = 0.0, SPEED
         state = wait_until(lambda: self.states.last(lambda state: 'touched' in state.reason and state.retreat.z > 0),
                            lambda: 'the way out; %s' % self.states.last())
         self.assertEqual(state.stage, GuardState.STOP)
         self.assertAlmostEqual(state.retreat.z, 1.0, 5)  # from the tip to the trocar
         wait_until(lambda: abs(self.hook.velocity - 0.005) < 1e-6, 'the tool retreats at `retreat_speed`')
-
-    def test_the_tool_turns_no_faster_than_it_may(self):
-        self.wait_for_motion()
-        self.hook.turn, self.hook.wish = 10.0, -0.001
-        wait_until(lambda: self.hook.message.twist.angular.x > 0.0, 'the tool turns')
-        self.assertLess(0.4 * self.hook.message.twist.angular.x, 0.1)
-
-    def test_parameters_change(self):
-        self.wait_for_motion()
-        change = rospy.ServiceProxy('/tool_guard/set_parameters', Reconfigure)
-        change(config=Config(doubles=[DoubleParameter(name='deceleration', value=0.001)]))
-        wait_until(lambda: self.states.last().speed_scale < 0.2, 'a lower speed')
-        shown = change(config=Config(doubles=[DoubleParameter(name='max_speed', value=0.01)])).config.doubles
-        self.assertNotIn('max_speed', [parameter.name for parameter in shown])
 
     def test_refusals(self):
         node = '/without'
