@@ -51,13 +51,11 @@ inline std::string graph_name(const ParameterGroup& group, const char* name) {
 }
 
 inline void parse_organs(const ParameterGroup& all, MeshAdapterParameters& parameters) {
-  const XmlRpc::XmlRpcValue& list =
-      all.list("organs", "groups of name, topic and, if needed, frame, vertices_topic and scale");
   std::set<std::string> organs, topics;
-  for (int i = 0; i < list.size(); ++i) {
-    const ParameterGroup group(
-        "~organs[" + std::to_string(i) + "]", list[i],
-        {names::kOrganName, names::kTopic, names::kFrame, names::kVerticesTopic, names::kScale});
+  for (const ParameterGroup& group : all.groups(
+           "organs", "groups of name, topic and, if needed, frame, vertices_topic and scale",
+           {names::kOrganName, names::kTopic, names::kFrame, names::kVerticesTopic, names::kScale},
+           parameters.misspelt)) {
     OrganParameters organ;
     organ.name = group.text(names::kOrganName);
     group.check_name(names::kOrganName, organ.name);
@@ -77,7 +75,6 @@ inline void parse_organs(const ParameterGroup& all, MeshAdapterParameters& param
       group.refuse(names::kVerticesTopic, "must be unique among all topics of the organs");
     }
     parameters.organs.push_back(organ);
-    for (const std::string& sentence : group.misspelt()) parameters.misspelt.push_back(sentence);
   }
 }
 

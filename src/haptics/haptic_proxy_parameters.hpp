@@ -54,22 +54,6 @@ inline WrenchLimits wrench_limits(const HapticProxyParameters& parameters) {
           rate(parameters.max_torque_rate, parameters.max_torque, defaults.max_torque)};
 }
 
-/// Reads the list `keep`.
-inline void parse_keep(const ParameterGroup& all, HapticProxyParameters& p) {
-  if (!all.has("keep")) return;
-  const XmlRpc::XmlRpcValue& list = all.list("keep", "groups of organ and side");
-  for (int i = 0; i < list.size(); ++i) {
-    const ParameterGroup entry("~keep[" + std::to_string(i) + "]", list[i], {"organ", "side"});
-    const std::string side = entry.text("side");
-    entry.choice("side", side, {"outside", "inside", "either"});
-    const Side kept = side == "inside" ? Side::kInside : Side::kUnknown;
-    if (!p.keep.insert({entry.text("organ"), side == "outside" ? Side::kOutside : kept}).second) {
-      entry.refuse("organ", "must be unique among the organs of ~keep");
-    }
-    for (const std::string& sentence : entry.misspelt()) p.misspelt.push_back(sentence);
-  }
-}
-
 inline ParameterTable table_of(HapticProxyParameters& p) {
   ParameterTable t;
   t.other(
@@ -132,7 +116,14 @@ inline ParameterTable table_of(HapticProxyParameters& p) {
            "[N] along the axis of a shaft that has pierced tissue")
       .live();
   t.other(
-      "keep", "outside of all organs", [&p](const ParameterGroup& all) { parse_keep(all, p); },
+      "keep", "outside of all organs",
+      [&p](const ParameterGroup& all) {
+        const std::map<KeptSide, Side> sides = {{KeptSide::kOutside, Side::kOutside},
+                                                {KeptSide::kInside, Side::kInside},
+                                                {KeptSide::kEither, Side::kUnknown}};
+        for (const auto& [organ, side] : parse_keep(all, p.misspelt))
+          p.keep[organ] = sides.at(side);
+      },
       "list of organs in which tools work. Each has organ, the name of the organ, and side: inside "
       "(the wall of a hollow organ holds the tool), either (each tool keeps the side on which it "
       "starts) or outside. A surface that is not closed has no inside: there, side is always "

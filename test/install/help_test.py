@@ -18,7 +18,7 @@ SCRIPTS = [path for path in glob.glob(os.path.join(SOURCE, 'examples', '*.py')) 
 # The programs of tests and benchmarks, besides the unit tests.
 NOT_SHIPPED = ('exactness_proof', 'proxy_proof', 'collision_benchmark', 'end_to_end', 'pose_to_wrench',
                'echo_node', 'ask_batches', 'motions_benchmark', 'soak', 'fuzz')
-NODES = ('organ_collision_node', 'haptic_proxy', 'organ_mesh_adapter')
+NODES = ('organ_collision_node', 'haptic_proxy', 'organ_mesh_adapter', 'tool_guard')
 
 
 def program(name):

@@ -23,7 +23,7 @@ PLAIN_ENVIRONMENT = {'PATH': '/usr/bin:/bin', 'HOME': os.environ.get('HOME', '/'
 SCRIPTS = {'demo_report.py', 'pose_adapter.py', 'view.py'} | {
     name for name in os.listdir(os.path.join(SOURCE, 'examples'))
     if name.endswith('.py') and os.access(os.path.join(SOURCE, 'examples', name), os.X_OK)}
-PROGRAMS = {'organ_collision_node', 'robot_reader', 'organ_mesh_adapter', 'haptic_proxy', 'query_offline', 'replay',
+PROGRAMS = {'organ_collision_node', 'robot_reader', 'organ_mesh_adapter', 'haptic_proxy', 'tool_guard', 'query_offline', 'replay',
             'liver_simulator', 'fem_tissue', 'stylus_driver'}
 SHIPPED = [folder + '/' + name for folder in ('launch', 'config', 'urdf', 'msg', 'srv')
            for name in os.listdir(os.path.join(SOURCE, folder)) if os.path.isfile(os.path.join(SOURCE, folder, name))]

@@ -19,7 +19,7 @@ import yaml
 
 from support.launch_case import FrameLog, LaunchCase, PACKAGE, files
 from support.node_client import LIMIT, Log, NodeClient, pose_stamped, wait_until
-from support.processes import NodeStarter, program
+from support.processes import NodeStarter, nodes_online, program
 
 # The tools of haptic_proxy.
 HANDS = {'config/demo_hands.yaml', 'examples/haptics.yaml', 'examples/lockstep.yaml', 'examples/ambf/hand.yaml',
@@ -44,6 +44,7 @@ class LaunchFilesTest(LaunchCase, NodeStarter):
                   'demo': self.check_demo, 'view': self.check_view,
                   'pose_adapter': lambda: self.check_pose_adapter(rospy.get_param('/pose_adapter/sources')),
                   'haptic_proxy': lambda: self.check_hands('/haptic_proxy', rospy.get_param('/haptic_proxy/tools')),
+                  'tool_guard': self.check_guard,
                   'organ_mesh_adapter': lambda: self.check_mesh_adapter(rospy.get_param('/organ_mesh_adapter/organs'))}
         self.assertEqual({'launch/%s.launch' % name for name in checks}, files('launch', '.launch'))
         for name, check in checks.items():
@@ -56,6 +57,10 @@ class LaunchFilesTest(LaunchCase, NodeStarter):
         """The view listens to a publisher that was there before it, so its call that registers the subscriber has
         ended. It publishes nothing, so it gets no row in FIRST_MESSAGES."""
         wait_until(lambda: self.markers.get_num_connections() > 0, 'the subscriber of the markers')
+
+    def check_guard(self):
+        """Without a collision node, no tool is known, and nothing is said."""
+        wait_until(lambda: '/tool_guard' in nodes_online(), 'the guard')
 
     def check_pose_adapter(self, sources):
         """A pose on each topic reaches TF, or the topic of poses."""
@@ -144,6 +149,9 @@ class LaunchFilesTest(LaunchCase, NodeStarter):
             elif 'tools' in parameters:
                 process = self.start(name, parameters)
                 self.check_collision_node(name)
+            elif 'latency' in parameters:
+                process = self.start(name, parameters, 'tool_guard')
+                wait_until(lambda: name in nodes_online(), name)
             elif 'sources' in parameters:
                 process = self.start(name, parameters, 'pose_adapter.py')
                 self.check_pose_adapter(parameters['sources'])

@@ -90,6 +90,10 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
   });
 }
 
+std::string suggestion(const std::string& name, const std::vector<std::string>& legal) {
+  return "nearest is '" + nearest_name(name, legal) + "', legal are " + listed(legal);
+}
+
 std::string duration_text(double seconds) {
   // What three digits would round to 1e+03 is written in seconds, or as a whole number.
   const double size = std::abs(seconds);

@@ -37,6 +37,9 @@ std::string name_fault(const std::string& name);
 /// must not be empty.
 std::string nearest_name(const std::string& name, const std::vector<std::string>& legal);
 
+/// "nearest is 'NEAREST', legal are ..."
+std::string suggestion(const std::string& name, const std::vector<std::string>& legal);
+
 /// A duration with three significant digits: "7.3 ms" below one second, otherwise "2.41 s". From
 /// 1000 s on, it is rounded to whole seconds.
 std::string duration_text(double seconds);

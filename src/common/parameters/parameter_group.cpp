@@ -128,6 +128,19 @@ const XmlRpcValue& ParameterGroup::list(const std::string& name, const std::stri
   return require(name, XmlRpcValue::TypeArray, "must be a list of " + of_what);
 }
 
+std::vector<ParameterGroup> ParameterGroup::groups(const std::string& name,
+                                                   const std::string& of_what,
+                                                   const std::vector<std::string>& legal_names,
+                                                   std::vector<std::string>& misspelt) const {
+  const XmlRpcValue& entries = list(name, of_what);
+  std::vector<ParameterGroup> groups;
+  for (int i = 0; i < entries.size(); ++i) {
+    groups.emplace_back(path_of(name) + "[" + std::to_string(i) + "]", entries[i], legal_names);
+    for (const std::string& sentence : groups.back().misspelt()) misspelt.push_back(sentence);
+  }
+  return groups;
+}
+
 Eigen::Vector3d ParameterGroup::point(const std::string& name) const {
   constexpr double kFarthest = 2.0;  // [m] With more, they are probably millimetres.
   const std::string legal = "must be a list of three numbers, each from -2 to 2 [m]";
@@ -166,8 +179,7 @@ std::vector<std::string> ParameterGroup::misspelt() const {
   std::vector<std::string> sentences;
   for (const auto& [name, value] : value_) {
     if (std::find(legal_names_.begin(), legal_names_.end(), name) != legal_names_.end()) continue;
-    sentences.push_back(path_of(name) + " is no parameter; nearest is '" +
-                        nearest_name(name, legal_names_) + "', legal are " + listed(legal_names_));
+    sentences.push_back(path_of(name) + " is no parameter; " + suggestion(name, legal_names_));
   }
   return sentences;
 }
@@ -204,6 +216,24 @@ const XmlRpcValue& ParameterGroup::require(const std::string& name, Type type,
   if (value.getType() == type) return value;
   throw ParameterError(path_of(name) + " is " + with_type(value) + "; " + legal +
                        remedy(value, type));
+}
+
+std::map<std::string, KeptSide> parse_keep(const ParameterGroup& all,
+                                           std::vector<std::string>& misspelt) {
+  const std::map<std::string, KeptSide> sides = {{"outside", KeptSide::kOutside},
+                                                 {"inside", KeptSide::kInside},
+                                                 {"either", KeptSide::kEither}};
+  std::map<std::string, KeptSide> keep;
+  if (!all.has("keep")) return keep;
+  for (const ParameterGroup& entry :
+       all.groups("keep", "groups of organ and side", {"organ", "side"}, misspelt)) {
+    const std::string side =
+        entry.choice("side", entry.text("side"), {"outside", "inside", "either"});
+    if (!keep.insert({entry.text("organ"), sides.at(side)}).second) {
+      entry.refuse("organ", "must be unique among the organs of " + all.path_of("keep"));
+    }
+  }
+  return keep;
 }
 
 XmlRpcValue all_parameters(const ros::NodeHandle& private_node) {

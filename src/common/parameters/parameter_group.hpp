@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -64,6 +65,11 @@ class ParameterGroup {
   std::string frame(const std::string& name) const;
   /// A list of anything. `of_what`: what the list holds, for the error message.
   const XmlRpc::XmlRpcValue& list(const std::string& name, const std::string& of_what) const;
+  /// The groups in the list `name`, with the members `legal_names`. `misspelt` gets a sentence for
+  /// each other member.
+  std::vector<ParameterGroup> groups(const std::string& name, const std::string& of_what,
+                                     const std::vector<std::string>& legal_names,
+                                     std::vector<std::string>& misspelt) const;
   /// A point [m]: a list of three numbers, each at most 2 in magnitude.
   Eigen::Vector3d point(const std::string& name) const;
   /// A non-empty list of different, non-empty texts.
@@ -94,6 +100,14 @@ class ParameterGroup {
   XmlRpc::XmlRpcValue value_;
   std::vector<std::string> legal_names_;
 };
+
+/// The side of an organ's surface on which tools may be.
+enum class KeptSide { kOutside, kInside, kEither };
+
+/// Reads the parameter `keep`: a side for each organ that it lists. No list: empty. `misspelt` gets
+/// a sentence for each unknown name. Throws ParameterError.
+std::map<std::string, KeptSide> parse_keep(const ParameterGroup& all,
+                                           std::vector<std::string>& misspelt);
 
 /// All members of a node's private namespace, as a group; an empty group if there are none.
 XmlRpc::XmlRpcValue all_parameters(const ros::NodeHandle& private_node);

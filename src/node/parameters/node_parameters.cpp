@@ -9,8 +9,6 @@
 namespace organ_collision {
 namespace {
 
-using XmlRpc::XmlRpcValue;
-
 const std::string kShaftKeys = "trocar_frame, tip_frame and radius";
 
 /// The name of a topic that a tool's parameter gives; empty if the parameter is not set.
@@ -198,17 +196,14 @@ std::vector<ToolParameters> parse_tools(const ParameterGroup& all,
   std::vector<ToolParameters> tools;
   std::vector<std::string> legal_keys;
   for (const HelpEntry& key : tool_keys()) legal_keys.push_back(key.name);
-  const XmlRpcValue& list =
-      all.list(names::kTools, "groups of name and links, or name, " + kShaftKeys + " [m]");
-  for (int i = 0; i < list.size(); ++i) {
-    const ParameterGroup group(all.path_of(names::kTools) + "[" + std::to_string(i) + "]", list[i],
-                               legal_keys);
+  for (const ParameterGroup& group :
+       all.groups(names::kTools, "groups of name and links, or name, " + kShaftKeys + " [m]",
+                  legal_keys, misspelt)) {
     const ToolParameters tool = parse_tool(group);
     for (const ToolParameters& other : tools) {
       if (other.name == tool.name) group.refuse(names::kToolName, "must be unique among the tools");
     }
     tools.push_back(tool);
-    for (const std::string& sentence : group.misspelt()) misspelt.push_back(sentence);
   }
   return tools;
 }

@@ -110,8 +110,7 @@ RobotLink read_link(const urdf::ModelInterface& model, const std::vector<std::st
   if (!link) {
     std::vector<std::string> legal;
     for (const auto& [known, of_robot] : model.links_) legal.push_back(known);
-    throw ToolError("link '" + name + "' is unknown; nearest is '" + nearest_name(name, legal) +
-                    "', legal are " + listed(legal));
+    throw ToolError("link '" + name + "' is unknown; " + suggestion(name, legal));
   }
   const std::string prefix = "link '" + name + "': ";
   try {
