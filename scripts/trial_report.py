@@ -86,7 +86,7 @@ class Report:
             why = '%s never came' % ' with '.join(filter(None, (tool, organ)))
         for pair in pairs if key in OF_PAIR else []:
             times += self.times_over(pair, name, legal, worst)
-            share = pair.unknown_share()
+            share = (self.trial.tools[pair.tool] if name == 'force' else pair).clock.unknown_share()
             if name == 'force' and pair.largest_force is None:
                 why = 'haptic_proxy tells no force of %s on %s' % (pair.tool, pair.organ)
             elif name == 'distance' and pair.least is None and not legal <= pair.margin < np.inf:
@@ -123,8 +123,9 @@ class Report:
         for (name, organ), pair in sorted(self.trial.pairs.items()):
             tool, path, ends = self.trial.tools[name], self.paths[name], [grasp for grasp in pair.grasps if grasp.event]
             yield {'tool': name, 'organ': organ, 'answers': sum(pair.statuses.values()),
-                   'not_ok_share': pair.unknown_share(), 'path_incomplete': pair.incomplete, 'touches': len(pair.touches),
-                   'touch_sec': sum(pair.touch_sec()), 'deepest_m': pair.deepest,
+                   'not_ok_share': pair.clock.unknown_share(), 'path_incomplete': pair.incomplete,
+                   'touches': len(pair.touches) if pair.statuses else None,
+                   'touch_sec': sum(pair.touch_sec()) if pair.statuses else None, 'deepest_m': pair.deepest,
                    'mean_force_N': pair.force_sum / pair.pressed if pair.pressed else None,
                    'largest_force_N': pair.largest_force, 'largest_hand_force_N': tool.largest_force,
                    'least_distance_m': pair.least, 'tip': tool.tip, 'path_m': path and path.path,

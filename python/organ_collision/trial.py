@@ -30,16 +30,23 @@ class Clock:
     """Stamps of one stream of messages without their steps back: the trial goes on where it was."""
 
     def __init__(self):
-        self.first, self.last, self.offsets, self.back = np.inf, -np.inf, [0.0], []
+        self.first, self.last, self.offsets, self.back, self.unknown = np.inf, -np.inf, [0.0], [], 0.0
 
-    def __call__(self, stamp):
+    def __call__(self, stamp, is_known=True):
+        """The time of a stamp. `is_known`: whether the message tells what happened since the one before."""
         time = stamp + self.offsets[-1]
         if time < self.last - STEP_BACK:
             self.back.append((self.last, self.last - time))
             self.offsets.append(self.last - stamp)
             time = self.last
+        if np.isfinite(self.first) and (not is_known or time - self.last > GAP):
+            self.unknown += time - self.last
         self.first, self.last = min(self.first, time), max(self.last, time)
         return time
+
+    def unknown_share(self):
+        """The share of the time in which messages told nothing, or did not come. None: there was no second one."""
+        return self.unknown / (self.last - self.first) if self.last > self.first else None
 
     def of_event(self, stamp):
         """The time of an event that may come just after a step back and be about the time before."""
@@ -142,16 +149,14 @@ class Pair:
 
     def __init__(self, tool, organ, series):
         self.tool, self.organ, self.clock, self.series = tool, organ, Clock(), defaultdict(series)
-        self.statuses, self.incomplete, self.unknown, self.margin = Counter(), 0, 0.0, np.inf
+        self.statuses, self.incomplete, self.margin = Counter(), 0, np.inf
         self.deepest = self.least = self.largest_force = None
         self.force_sum, self.pressed, self.touches, self.grasps = 0.0, 0, [], []
 
     def answer(self, answer, stamp):
-        before, time, is_ok = self.clock.last, self.clock(stamp), answer.status == ContactArray.OK
+        time = self.clock(stamp, answer.status == ContactArray.OK)
         self.statuses[answer.status] += 1
-        if np.isfinite(before) and (not is_ok or time - before > GAP):
-            self.unknown += time - before
-        if not is_ok:
+        if answer.status != ContactArray.OK:
             return
         self.incomplete += answer.path_incomplete
         state, margin, _, distance, least = answer.clearance[:5]
@@ -177,10 +182,6 @@ class Pair:
     def touch_sec(self):
         """The time of each touch."""
         return [self.clock.last - touch.begin if touch.seconds is None else touch.seconds for touch in self.touches]
-
-    def unknown_share(self):
-        """The share of the time in which answers were not OK, or did not come. None: there was no second answer."""
-        return self.unknown / (self.clock.last - self.clock.first) if self.clock.last > self.clock.first else None
 
     def force(self, time, force):
         self.largest_force, self.force_sum = max(force, self.largest_force or 0.0), self.force_sum + force
@@ -262,7 +263,8 @@ class Trial:
 
     def state(self, state, stamp):
         """A state of haptic_proxy: the force on the hand, and the force on each organ."""
-        tool, time = self.tools[state.tool], self.tools[state.tool].clock(stamp)
+        tool = self.tools[state.tool]
+        time = tool.clock(stamp, state.state != ProxyState.NO_ANSWER)
         if state.state == ProxyState.NO_ANSWER:
             return
         on_hand = float(np.linalg.norm(state.wrench[0]))
