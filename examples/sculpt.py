@@ -7,6 +7,7 @@ Parameters: ~seconds until the groove is done; ~save: a file of numpy (.npz) wit
 
 import argparse
 import queue
+import threading
 
 from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
 import numpy as np
@@ -14,9 +15,10 @@ from organ_collision import Organ
 from organ_collision.recordings import decode, seconds
 import rospy
 from std_msgs.msg import Header
-import tf2_ros
+from tf2_msgs.msg import TFMessage
 
 CELL, CELLS, HEIGHT = 0.001, (64, 44), 0.012  # [m], of the top in each direction, [m]
+TOP_VERTICES = (CELLS[0] + 1) * (CELLS[1] + 1)
 RATE = 500                                    # [Hz]
 TOP, DEEPEST = 0.007, 0.0035                  # [m] height of the ball's centre above the clay at first and in the groove
 PATIENCE = 1.0                                # [s] for an answer
@@ -59,27 +61,19 @@ def carve(vertices, contacts):
     vertices[:, 2] -= lower
 
 
-def main():
-    argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter).parse_args(
-        rospy.myargv()[1:])
-    rospy.init_node('sculpt')
+def sculpt(answers, frames):
+    """Moves the ball and the clay in turn: the next step comes when the answer about this one is there."""
     vertices, faces = block()
-    answers, frames, ticks = queue.Queue(), tf2_ros.TransformBroadcaster(), int(RATE * rospy.get_param('~seconds', 12.0))
-    # The bytes of the answers: rospy needs 4 ms to make objects of 250 contacts.
-    contacts = rospy.Subscriber('/organ_collision/contacts', rospy.AnyMsg, lambda answer: answers.put(answer._buff),
-                                tcp_nodelay=True)
-    while (frames.pub_tf.get_num_connections() == 0 or contacts.get_num_connections() == 0) and not rospy.is_shutdown():
-        rospy.sleep(0.05)
-    clay, rate, tick = Organ('clay', vertices, faces), rospy.Rate(RATE), 0
+    clay, rate, tick, ticks = Organ('clay', vertices, faces), rospy.Rate(RATE), 0, int(RATE * rospy.get_param('~seconds', 12.0))
     begin = rospy.get_time()
     while tick <= ticks and not rospy.is_shutdown():
         now = rospy.Time.now()
-        frames.sendTransform(TransformStamped(Header(0, now, 'clay'), 'ball', Transform(
-            Vector3(*ball(tick / ticks)), Quaternion(0, 0, 0, 1))))
+        frames.publish([TransformStamped(Header(0, now, 'clay'), 'ball', Transform(
+            Vector3(*ball(tick / ticks)), Quaternion(0, 0, 0, 1)))])
         clay.move(vertices, now)
         try:
-            answer = decode('organ_collision/ContactArray', answers.get(timeout=PATIENCE))
-            while abs(seconds(answer.mesh_stamp) - now.to_sec()) > 1e-6:  # It is about an earlier shape.
+            answer = None
+            while answer is None or abs(seconds(answer.mesh_stamp) - now.to_sec()) > 1e-6:  # It is about an earlier shape.
                 answer = decode('organ_collision/ContactArray', answers.get(timeout=PATIENCE))
         except queue.Empty:
             rospy.logwarn_throttle(1, 'no answer about the clay')
@@ -90,11 +84,26 @@ def main():
         if len(answer.contacts):
             carve(vertices, answer.contacts)
         tick += 1
+        rospy.loginfo_throttle(2, 'carved %.2f mm deep, at %.0f Hz' % (
+            -1e3 * vertices[:TOP_VERTICES, 2].min(), tick / (rospy.get_time() - begin)))
         rate.sleep()
-    rospy.loginfo('carved at %.0f Hz, %.2f mm deep' % (
-        tick / (rospy.get_time() - begin), 1e3 * (block()[0] - vertices)[:, 2].max()))
-    if rospy.get_param('~save', ''):
+    if rospy.get_param('~save', '') and tick > ticks:
         np.savez(rospy.get_param('~save'), vertices=vertices, faces=faces)
+
+
+def main():
+    argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter).parse_args(
+        rospy.myargv()[1:])
+    rospy.init_node('sculpt')
+    # Without tcp_nodelay, as in tf2_ros, a transform waits up to 40 ms for the confirmation of the one before.
+    answers, frames = queue.Queue(), rospy.Publisher('/tf', TFMessage, queue_size=10, tcp_nodelay=True)
+    # The bytes of the answers: rospy needs 4 ms to make objects of 250 contacts.
+    contacts = rospy.Subscriber('/organ_collision/contacts', rospy.AnyMsg, lambda answer: answers.put(answer._buff),
+                                tcp_nodelay=True)
+    while (frames.get_num_connections() == 0 or contacts.get_num_connections() == 0) and not rospy.is_shutdown():
+        rospy.sleep(0.05)
+    # In a thread of its own: rospy deadlocks if Ctrl-C finds the main thread in a publish.
+    threading.Thread(target=sculpt, args=(answers, frames), daemon=True).start()
     rospy.spin()
 
 
