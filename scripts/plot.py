@@ -17,21 +17,16 @@ from organ_collision.trial_plots import draw
 import rospy
 
 
-class LastSeconds:
-    """A series, as an Envelope has it, of the last `duration` seconds."""
+class Latest(deque):
+    """A series, as an Envelope has it, of the latest values."""
 
     width = 0.0
 
-    def __init__(self, duration):
-        self.duration, self.rows = duration, deque()
-
     def add(self, *row):
-        self.rows.append(row)
-        while self.rows[0][0] < row[0] - self.duration:
-            self.rows.popleft()
+        self.append(row)
 
     def points(self):
-        return np.array(self.rows).reshape(-1, 3).T
+        return np.array(self).reshape(-1, 3).T
 
 
 def show(figure, listener, tool, duration):
@@ -39,9 +34,9 @@ def show(figure, listener, tool, duration):
     listener.look()
     with listener.lock:
         pairs = [pair for pair in listener.trial.pairs.values() if pair.tool == tool]
-        end = max((pair.clock.last for pair in pairs), default=0.0)
+        end = max((pair.clock.last for pair in pairs if pair.statuses), default=0.0)
         for pair in pairs:
-            pair.touches = [touch for touch in pair.touches[:-1] if touch.begin > end - 2 * duration] + pair.touches[-1:]
+            del pair.touches[:-1000]
         draw(figure, listener.trial, tool, end)
     figure.axes[0].set_xlim(-duration, 0)
 
@@ -54,14 +49,16 @@ def main():
     options.add_argument('--png', metavar='FILE', help='listens so long, writes a picture, and ends')
     options.add_argument('--node', action='append', default=[], help='a node that counts; default: all')
     asked = options.parse_args(rospy.myargv()[1:])
+    if not 0 < asked.seconds <= 3600:
+        options.error('--seconds is %g; must be above 0 and at most 3600' % asked.seconds)
     if asked.png:
         matplotlib.use('Agg')
     from matplotlib import animation, pyplot  # They choose where to draw.
-    figure = pyplot.figure(asked.tool, (9, 6), layout='constrained')
+    figure = pyplot.figure(asked.tool, (9, 6), constrained_layout=True)
     if not asked.png and matplotlib.get_backend().lower() == 'agg':
         raise TrialError('there is no display, or no python3-tk; write a picture with --png FILE')
     rospy.init_node('plot', anonymous=True, disable_signals=True)
-    listener = Listener(Trial(asked.node, series=lambda: LastSeconds(asked.seconds)))
+    listener = Listener(Trial(asked.node, series=lambda: Latest(maxlen=int(2000 * asked.seconds))))  # up to 2 kHz
     if not asked.png:
         shown = animation.FuncAnimation(figure, lambda _: show(figure, listener, asked.tool, asked.seconds), interval=200,
                                         cache_frame_data=False)

@@ -15,10 +15,12 @@ import os
 import sys
 import time
 
+from matplotlib.figure import Figure
 import numpy as np
-from organ_collision.recordings import BagError, BagReader, Listener
+from organ_collision.recordings import BagError, Listener, read_bag
 from organ_collision.trial import Trial, TrialError
 from organ_collision.trial_plots import draw
+import rospy
 import yaml
 
 # Limits of a tool with an organ, and those of a tool: the measure, how it is shown, and its factor from SI units.
@@ -39,23 +41,23 @@ def read_limits(path):
     """The limits of a yaml: (key, value, tool, organ). Raises TrialError, which names the entry and what is legal."""
     try:
         with open(path, encoding='utf-8') as text:
-            entries = yaml.safe_load(text)['limits']
-        for number, entry in enumerate(entries, 1):
-            where, keys = '%s, limit %d' % (path, number), {**entry}
-            tool, organ = keys.pop('tool', None), keys.pop('organ', None)
-            for key, value in keys.items() or [('', 0)]:
-                if key not in LIMITS:
-                    near = difflib.get_close_matches(str(key), LIMITS, 1)
-                    raise TrialError('%s: %s; %s' % (
-                        where, 'unknown key %r' % key if keys else 'it limits nothing',
-                        'did you mean %s?' % near[0] if near else 'legal are tool, organ, ' + ', '.join(LIMITS)))
-                if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0 <= value < float('inf'):
-                    raise TrialError('%s: %s is %r; must be a number from 0 on' % (where, key, value))
-                if organ and key not in OF_PAIR:
-                    raise TrialError('%s: %s is about a tool; leave out organ' % (where, key))
-                yield key, value, tool, organ
+            entries = [{**entry} for entry in yaml.safe_load(text)['limits']]
     except (OSError, yaml.YAMLError, TypeError, KeyError, UnicodeError) as error:
         raise TrialError('%s has no list `limits`: %s' % (path, ' '.join(str(error).split()))) from error
+    for number, keys in enumerate(entries, 1):
+        tool, organ = (keys[name] and str(keys.pop(name)) if name in keys else None for name in ('tool', 'organ'))
+        where = '%s, limit %d: ' % (path, number)
+        if not keys:
+            raise TrialError(where + 'it limits nothing; legal are ' + ', '.join(LIMITS))
+        for key, value in keys.items():
+            if key not in LIMITS:
+                near = difflib.get_close_matches(str(key), LIMITS, 1) or ['one of tool, organ, ' + ', '.join(LIMITS)]
+                raise TrialError(where + 'unknown key %r; did you mean %s?' % (key, near[0]))
+            if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0 <= value < float('inf'):
+                raise TrialError(where + '%s is %r; must be a number from 0 on' % (key, value))
+            if organ and key not in OF_PAIR:
+                raise TrialError(where + '%s is about a tool; leave out organ' % key)
+            yield key, value, tool, organ
 
 
 class Report:
@@ -64,47 +66,57 @@ class Report:
     def __init__(self, name, trial, limits, notes):
         self.name, self.trial, self.limits = name, trial, limits
         self.paths = {name: tool.paths[tool.tip].measures() if tool.tip else None for name, tool in trial.tools.items()}
-        clocks = [of.clock for tool in trial.tools.values() for of in [tool, *tool.paths.values()]] + [
-            pair.clock for pair in trial.pairs.values()]
+        clocks = [of.clock for of in (*trial.tools.values(), *trial.pairs.values())]
         self.start, self.end = min(clock.first for clock in clocks), max(clock.last for clock in clocks)
         self.notes = notes + ['The stamps about %s and %s step back by %.3f s at %.3f s. The trial goes on from there.' % (
             *names, by, at - self.start) for names, pair in trial.pairs.items() for at, by in pair.clock.back]
         self.verdicts = [self.judge(*limit) for limit in limits]
         states = [row['state'] for row in self.verdicts]
         self.state = next((state for state in ('broken', 'unknown') if state in states), 'kept' if states else 'unknown')
-        self.headline = {'kept': 'GOOD: all %d limits were kept' % len(states), 'unknown': (
-            'NOT KNOWN: %d of %d limits cannot be judged' % (states.count('unknown'), len(states)) if states else
-            'No limits were given'),
-            'broken': 'NOT GOOD: %d of %d limits were broken' % (states.count('broken'), len(states))}[self.state]
+        self.headline = 'No limits were given' if not states else {
+            'kept': 'GOOD: all %d limits were kept', 'unknown': 'NOT KNOWN: %d of %d limits cannot be judged',
+            'broken': 'NOT GOOD: %d of %d limits were broken'}[self.state] % (
+                (len(states),) if self.state == 'kept' else (states.count(self.state), len(states)))
 
     def judge(self, key, legal, tool, organ):
         """Whether a limit was kept, when it was broken, and why this is not known: a row of the table."""
         (name, text, scale), worst, times, why = LIMITS[key], max if key.startswith('max') else min, [], ''
-        pairs = [pair for pair in self.trial.pairs.values() if tool in (None, pair.tool) and organ in (None, pair.organ)]
-        tools = [one for one in sorted(self.trial.tools) if tool in (None, one)]
-        if not (pairs if key in OF_PAIR else tools):
-            why = '%s never came' % ' with '.join(filter(None, (tool, organ)))
-        for pair in pairs if key in OF_PAIR else []:
-            times += self.times_over(pair, name, legal, worst)
-            share = (self.trial.tools[pair.tool] if name == 'force' else pair).clock.unknown_share()
-            if name == 'force' and pair.largest_force is None:
-                why = 'haptic_proxy tells no force of %s on %s' % (pair.tool, pair.organ)
-            elif name == 'distance' and pair.least is None and not legal <= pair.margin < np.inf:
-                why = 'the margin of %s is smaller, or it has none' % pair.tool
-            elif share is None or share > UNKNOWN_SHARE:
-                why = 'no answers OK about %s and %s in %.0f %% of the time' % (pair.tool, pair.organ, 100 * (share or 1))
-        for one in [] if key in OF_PAIR else tools:
-            why = why if self.paths[one] else 'there are no poses of the tip of %s' % one
-            if self.paths[one] and getattr(self.paths[one], name) > legal:
-                times.append((self.end, self.end, getattr(self.paths[one], name)))
+        if key in OF_PAIR:
+            about = [pair for pair in self.trial.pairs.values() if tool in (None, pair.tool) and organ in (None, pair.organ)]
+            for pair in about:
+                times += self.times_over(pair, name, legal, worst)
+                why = why or self.why_unknown(pair, name, legal)
+        else:
+            about = [one for one in self.trial.tools if tool in (None, one)]
+            for one in about:
+                path = self.paths[one]
+                if path and getattr(path, name) > legal:
+                    times.append((self.end, self.end, getattr(path, name)))
+                if not path or path.path_sec < (1 - UNKNOWN_SHARE) * (self.end - path.first) - 0.1:
+                    why = 'the tip of %s was seen for %.1f s only' % (one, path.path_sec if path else 0)
         times.sort()
         shown = ', '.join('%.2f to %.2f' % (begin - self.start, end - self.start) for begin, end, _ in times[:MOST_TIMES])
-        return {'limit': '%s: at %s %s' % (' with '.join(filter(None, (tool, organ))) or 'all', 'most' if worst is max else
-                                           'least', text % (scale * legal)),
+        names = ' with '.join(filter(None, (tool, organ)))
+        why = '' if times else why if about else '%s never came' % (names or 'tools')
+        return {'limit': '%s: at %s %s' % (names or 'all', 'most' if worst is max else 'least', text % (scale * legal)),
                 'state': 'broken' if times else 'unknown' if why else 'kept',
                 'worst': text % (scale * worst(value for _, _, value in times)) if times else None,
                 'times_sec': shown + (', and %d more' % (len(times) - MOST_TIMES) if len(times) > MOST_TIMES else ''),
-                'why_not_known': '' if times else why}
+                'why_not_known': why}
+
+    def why_unknown(self, pair, name, legal):
+        """Why it is not known whether a pair broke a limit that no message shows to be broken; '' if it is known."""
+        names, was_touched = '%s and %s' % (pair.tool, pair.organ), bool(pair.touches or pair.deepest is not None)
+        share = (self.trial.tools[pair.tool] if name == 'force' else pair).clock.unknown_share(self.end)
+        if name == 'force' and (pair.largest_force is None or was_touched and not pair.is_of_proxy):
+            return 'haptic_proxy tells no force between ' + names
+        if name == 'distance' and pair.least is None and not legal <= pair.margin < np.inf:
+            return 'the margin of %s is smaller, or it has none' % pair.tool
+        if name.startswith('touch') and was_touched and not pair.touches:
+            return 'there are contacts of %s, but no events on `touches`' % names
+        if share is None or share > UNKNOWN_SHARE:
+            return 'no answers OK about %s in %.0f %% of the time' % (names, 100 * (share or 1))
+        return ''
 
     @staticmethod
     def times_over(pair, name, legal, worst):
@@ -122,19 +134,21 @@ class Report:
     def pair_rows(self):
         for (name, organ), pair in sorted(self.trial.pairs.items()):
             tool, path, ends = self.trial.tools[name], self.paths[name], [grasp for grasp in pair.grasps if grasp.event]
+            has_touches = pair.touches or pair.statuses and pair.deepest is None
             yield {'tool': name, 'organ': organ, 'answers': sum(pair.statuses.values()),
-                   'not_ok_share': pair.clock.unknown_share(), 'path_incomplete': pair.incomplete,
-                   'touches': len(pair.touches) if pair.statuses else None,
-                   'touch_sec': sum(pair.touch_sec()) if pair.statuses else None, 'deepest_m': pair.deepest,
+                   'not_ok_share': pair.clock.unknown_share(self.end), 'path_incomplete': pair.incomplete,
+                   'touches': len(pair.touches) if has_touches else None,
+                   'touch_sec': sum(pair.touch_sec()) if has_touches else None, 'deepest_m': pair.deepest,
                    'mean_force_N': pair.force_sum / pair.pressed if pair.pressed else None,
                    'largest_force_N': pair.largest_force, 'largest_hand_force_N': tool.largest_force,
                    'least_distance_m': pair.least, 'tip': tool.tip, 'path_m': path and path.path,
                    **{key: path and getattr(path, key) for key in ('path_sec', 'idle_sec', 'movements', 'sparc', 'ldlj')},
-                   'grasps': len(pair.grasps) - len(ends), 'grasp_sec': sum(grasp.duration_sec for grasp in ends)}
+                   'grasps': pair.grasps and len(pair.grasps) - len(ends) or None,
+                   'grasp_sec': sum(grasp.duration_sec for grasp in ends) or None}
 
     def touch_rows(self):
         rows = [{'begin_sec': touch.begin - self.start, 'duration_sec': lasted, 'tool': pair.tool, 'organ': pair.organ,
-                 'deepest_m': touch.deepest, 'faces': touch.faces, 'end': touch.reason or 'moved off'}
+                 'deepest_m': touch.deepest, 'faces': touch.faces, 'end': touch.reason}
                 for pair in self.trial.pairs.values() for touch, lasted in zip(pair.touches, pair.touch_sec())]
         return sorted(rows, key=lambda row: (row['begin_sec'], row['tool'], row['organ']))
 
@@ -150,17 +164,15 @@ class Report:
                                              self.end - self.start)
         columns = [{'': key, **{'%s, %s' % (row['tool'], row['organ']): row[key] for row in pairs}} for key in pairs[0]]
         page = ['<!DOCTYPE html><meta charset="utf-8"><title>%s</title><style>%s</style><h1 class="%s">%s</h1>' % (
-            html.escape(self.name), STYLE, self.state, html.escape(self.headline)), table(self.verdicts)]
-        page += ['<p>%s</p>' % html.escape(line) for line in [about, *self.notes[:MOST_TIMES]]]
-        page += ['<h2>Tools and organs</h2>', table(columns), *map(self.picture, sorted(self.trial.tools)), '<h2>Touches</h2>',
-                 table(touches)]
+            html.escape(self.name), STYLE, self.state, html.escape(self.headline)), table(self.verdicts),
+            *('<p>%s</p>' % html.escape(line) for line in [about, *self.notes[:MOST_TIMES]]), '<h2>Tools and organs</h2>',
+            table(columns), *map(self.picture, sorted(self.trial.tools)), '<h2>Touches</h2>', table(touches)]
         with open(base + '.html', 'w', encoding='utf-8') as text:
             text.write('\n'.join(page))
 
     def picture(self, tool):
         """Plots of a tool over the whole trial."""
-        from matplotlib.figure import Figure  # It takes half a second.
-        figure, png, path = Figure((11, 8), layout='constrained'), io.BytesIO(), self.paths[tool]
+        figure, png, path = Figure((11, 8), constrained_layout=True), io.BytesIO(), self.paths[tool]
         draw(figure, self.trial, tool, self.start, path and path.speed,
              [(LIMITS[key][0], legal) for key, legal, about, _ in self.limits if about in (None, tool)])
         figure.savefig(png, dpi=100)
@@ -178,30 +190,13 @@ def table(rows):
         '<tr class="%s"><td>%s' % (row.get('state', ''), '<td>'.join(map(cell, row.values()))) for row in rows])
 
 
-def read_bag(path, trial):
-    """Reads a bag, with progress on standard error. Returns notes for the report."""
-    bag, shown, known = BagReader(path), time.monotonic(), {}
-    for connection, receipt, data in bag.messages():
-        if connection not in known:
-            known[connection] = trial.has(connection)
-        if known[connection]:
-            trial.take(connection, receipt, data)
-        if time.monotonic() > shown + 1:
-            shown = time.monotonic()
-            print('\r%3.0f %% of %s' % (100 * bag.share, path), end='', file=sys.stderr, flush=True)
-    print('\r' + ' ' * (len(path) + 9), end='\r', file=sys.stderr)
-    return ['The bag is %s. This is what is there.' % bag.fault] if bag.fault else []
-
-
 def listen(duration, trial):
-    import rospy  # Bags do not need it.
     rospy.init_node('trial_report', anonymous=True, disable_signals=True)
-    listener = Listener(trial)
     print('Listening for %g s, or until Ctrl-C' % duration, file=sys.stderr)
+    listener = Listener(trial)
     listener.listen(duration)
     rospy.signal_shutdown('the trial is over')
     listener.lock.acquire()  # Nothing comes any more.
-    return []
 
 
 def main():
@@ -215,13 +210,14 @@ def main():
                          'default: all')
     options.add_argument('--tip', action='append', default=[], metavar='TOOL=FRAME', help='TF frame of the tip of a tool, or '
                          'a topic of PoseStamped; default: TOOL_tip, its first link, or the hand of haptic_proxy')
-    asked = options.parse_args([word for word in sys.argv[1:] if not word.startswith('__')])
+    asked = options.parse_args(rospy.myargv()[1:])
     if (asked.bag is None) == (asked.live is None) or not all('=' in tip for tip in asked.tip):
         options.error('give a bag, or --live SECONDS; and each --tip as TOOL=FRAME')
     limits = list(read_limits(asked.limits)) if asked.limits else []
     trial, name = Trial(asked.node, dict(tip.split('=', 1) for tip in asked.tip)), asked.bag or 'live'
-    notes = read_bag(asked.bag, trial) if asked.bag else listen(asked.live, trial)
-    if not trial.pairs:
+    fault = read_bag(asked.bag, trial) if asked.bag else listen(asked.live, trial)
+    notes = ['The bag is %s. This is what is there.' % fault] if fault else []
+    if not any(pair.statuses or pair.largest_force is not None for pair in trial.pairs.values()):
         raise TrialError('%s has no answers of a collision node and no forces of haptic_proxy; record the topics contacts, '
                          'touches and state. %s' % (name, *notes[:1], ''))
     report, base = Report(name, trial, limits, notes), asked.out or os.path.splitext(name)[0]
@@ -233,6 +229,6 @@ def main():
 if __name__ == '__main__':
     try:
         main()
-    except (TrialError, BagError, OSError) as error:
+    except (TrialError, BagError, OSError, rospy.ROSException) as error:
         print('trial_report.py: %s' % error, file=sys.stderr)
         sys.exit(2)

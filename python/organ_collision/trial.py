@@ -8,16 +8,16 @@ from collections import Counter, defaultdict
 from types import SimpleNamespace
 
 import numpy as np
+from PyKDL import Frame, Rotation, Vector
 
 import organ_collision.msg
 from organ_collision.msg import Clearance, ContactArray, ProxyState, TouchEvent
 from organ_collision.recordings import decode, seconds
 
-GAP = 1.0         # [s] Without an answer OK for longer, it is not known what happened.
-STEP_BACK = 0.1   # [s] Stamps that step back farther begin a new part of the trial.
-IDLE_SPEED, IDLE_TIME = 0.005, 0.5          # [m/s], [s] A tip that is slower for longer is idle.
-RATE, THINNED, PATH_GAP = 100, 0.005, 0.2   # [Hz], [s], [s] of paths
-HAND = 'hand of haptic_proxy'               # a source of a tip's poses
+GAP = 1.0  # [s] Without an answer OK for longer, it is not known what happened. A longer step back of stamps is a jump.
+IDLE_SPEED, IDLE_TIME = 0.005, 0.5         # [m/s], [s] A tip that is slower for longer is idle.
+RATE, THINNED, PATH_GAP = 100, 0.005, 0.2  # [Hz], [s], [s] of paths
+HAND = 'hand of haptic_proxy'              # a source of a tip's poses
 KINDS = {'organ_collision/' + name: getattr(organ_collision.msg, name)._md5sum
          for name in ('ContactArray', 'TouchEvent', 'ProxyState', 'Grasp') if hasattr(organ_collision.msg, name)}
 
@@ -27,7 +27,7 @@ class TrialError(RuntimeError):
 
 
 class Clock:
-    """Stamps of one stream of messages without their steps back: the trial goes on where it was."""
+    """Stamps of one stream of messages without their jumps back: the trial goes on where it was."""
 
     def __init__(self):
         self.first, self.last, self.offsets, self.back, self.unknown = np.inf, -np.inf, [0.0], [], 0.0
@@ -35,21 +35,22 @@ class Clock:
     def __call__(self, stamp, is_known=True):
         """The time of a stamp. `is_known`: whether the message tells what happened since the one before."""
         time = stamp + self.offsets[-1]
-        if time < self.last - STEP_BACK:
+        if time < self.last - GAP:
             self.back.append((self.last, self.last - time))
             self.offsets.append(self.last - stamp)
             time = self.last
-        if np.isfinite(self.first) and (not is_known or time - self.last > GAP):
+        if time > self.last > -np.inf and (not is_known or time - self.last > GAP):
             self.unknown += time - self.last
         self.first, self.last = min(self.first, time), max(self.last, time)
         return time
 
-    def unknown_share(self):
-        """The share of the time in which messages told nothing, or did not come. None: there was no second one."""
-        return self.unknown / (self.last - self.first) if self.last > self.first else None
+    def unknown_share(self, end):
+        """The share of the time up to `end` in which messages told nothing, or did not come. None: there was no time."""
+        missing = self.unknown + (end - self.last if end - self.last > GAP else 0.0)
+        return missing / (end - self.first) if end > self.first else None
 
     def of_event(self, stamp):
-        """The time of an event that may come just after a step back and be about the time before."""
+        """The time of an event that may come just after a jump and be about the time before."""
         return min((stamp + offset for offset in self.offsets[-2:]), key=lambda time: abs(time - self.last))
 
 
@@ -64,9 +65,9 @@ class Envelope:
         old = self.bins.get(key, (low, high))
         self.bins[key] = (min(low, old[0]), max(high, old[1]))
         if len(self.bins) > 20000:
-            finer, self.bins, self.width = self.bins, {}, 2 * self.width
-            for key, values in finer.items():
-                self.add(key // 2 * self.width, *values)
+            finer, self.bins, self.width = self.points().T, {}, 2 * self.width
+            for time, low, high in finer.tolist():
+                self.add(time + self.width / 4, low, high)  # The middle of the finer time does not depend on rounding.
 
     def points(self):
         """Times, least and greatest values."""
@@ -80,19 +81,19 @@ class Path:
         self.clock, self.times, self.places, self.cuts = Clock(), array('d'), array('d'), [0]
 
     def add(self, stamp, place):
-        parts, time = len(self.clock.offsets), self.clock(stamp)
-        is_new = len(self.clock.offsets) > parts
-        if not is_new and self.times and time < self.times[-1] + THINNED:
+        jumps, time = len(self.clock.back), self.clock(stamp)
+        has_jumped = len(self.clock.back) > jumps
+        if self.times and not has_jumped and time < self.times[-1] + THINNED:
             return
-        if is_new or self.times and time > self.times[-1] + PATH_GAP:
+        if has_jumped or self.times and time > self.times[-1] + PATH_GAP:
             self.cuts.append(len(self.times))
         self.times.append(time)
         self.places.extend(place)
 
-    def measures(self, idle_speed=IDLE_SPEED):
+    def measures(self):
         """Its length, time and idle time, the mean smoothness of its movements, and an Envelope of its speed."""
-        of = SimpleNamespace(path=0.0, path_sec=0.0, idle_sec=0.0, movements=0, sparc=None, ldlj=None, speed=Envelope())
-        smoothness = []
+        of, smoothness = SimpleNamespace(first=self.clock.first, path=0.0, path_sec=0.0, idle_sec=0.0, sparc=None, ldlj=None,
+                                         speed=Envelope()), []
         for begin, end in zip(self.cuts, self.cuts[1:] + [len(self.times)]):
             times = np.array(self.times[begin:end])
             grid = times[:1] + np.arange(np.ceil(np.ptp(times) * RATE) if len(times) else 0) / RATE
@@ -101,18 +102,18 @@ class Path:
             places = np.array(self.places[3 * begin:3 * end]).reshape(-1, 3)
             places = np.stack([_smoothed(np.interp(grid, times, axis)) for axis in places.T], axis=1)
             speed = np.linalg.norm(np.diff(places, axis=0), axis=1) * RATE
+            is_idle = np.zeros(len(speed), bool)
+            for first, last in _long_runs(speed < IDLE_SPEED):
+                is_idle[first:last] = True
             of.path += speed.sum() / RATE
             of.path_sec += len(speed) / RATE
-            is_idle = np.zeros(len(speed), bool)
-            for first, last in _runs(speed < idle_speed):
-                is_idle[first:last] = last - first >= IDLE_TIME * RATE
             of.idle_sec += is_idle.sum() / RATE
-            smoothness += [(sparc(speed[first:last]), ldlj(speed[first:last]))
-                           for first, last in _runs(~is_idle) if last - first >= IDLE_TIME * RATE]
+            smoothness += [(sparc(speed[first:last]), ldlj(speed[first:last])) for first, last in _long_runs(~is_idle)]
             for time, value in zip(grid.tolist(), speed.tolist()):
                 of.speed.add(time, value, value)
+        of.movements = len(smoothness)
         if smoothness:
-            of.movements, (of.sparc, of.ldlj) = len(smoothness), np.mean(smoothness, axis=0).tolist()
+            of.sparc, of.ldlj = np.mean(smoothness, axis=0).tolist()
         return of
 
 
@@ -122,9 +123,10 @@ def _smoothed(values):
     return np.convolve(np.pad(values, 5, 'reflect', reflect_type='odd'), window / window.sum(), 'valid')
 
 
-def _runs(flags):
-    """The (first, last + 1) of each run of true values."""
-    return np.flatnonzero(np.diff(np.concatenate([[0], flags.astype(np.int8), [0]]))).reshape(-1, 2).tolist()
+def _long_runs(flags):
+    """The (first, last + 1) of each run of true values that lasts IDLE_TIME."""
+    runs = np.flatnonzero(np.diff(np.concatenate([[0], flags.astype(np.int8), [0]]))).reshape(-1, 2)
+    return runs[np.diff(runs)[:, 0] >= IDLE_TIME * RATE].tolist()
 
 
 def sparc(speed):
@@ -149,7 +151,7 @@ class Pair:
 
     def __init__(self, tool, organ, series):
         self.tool, self.organ, self.clock, self.series = tool, organ, Clock(), defaultdict(series)
-        self.statuses, self.incomplete, self.margin = Counter(), 0, np.inf
+        self.statuses, self.incomplete, self.margin, self.is_of_proxy = Counter(), 0, np.inf, False
         self.deepest = self.least = self.largest_force = None
         self.force_sum, self.pressed, self.touches, self.grasps = 0.0, 0, [], []
 
@@ -158,30 +160,35 @@ class Pair:
         self.statuses[answer.status] += 1
         if answer.status != ContactArray.OK:
             return
-        self.incomplete += answer.path_incomplete
-        state, margin, _, distance, least = answer.clearance[:5]
+        self.incomplete += bool(answer.path_incomplete)
+        clearance = answer.clearance
+        is_known = clearance['state'] == Clearance.KNOWN
+        least, distance = (float(clearance[name]) if is_known else 0.0 for name in ('least', 'distance'))
         if len(answer.contacts):
-            depth, distance = float(answer.contacts['depth'].max()), distance if state == Clearance.KNOWN else 0.0
-            self.deepest, least = depth if self.deepest is None else max(depth, self.deepest), 0.0
+            depth, least = float(answer.contacts['depth'].max()), 0.0
+            self.deepest = depth if self.deepest is None else max(depth, self.deepest)
             self.series['depth'].add(time, depth, depth)
-        if len(answer.contacts) or state == Clearance.KNOWN:
+        if len(answer.contacts) or is_known:
             self.least = least if self.least is None else min(least, self.least)
-            self.series['distance'].add(time, distance, distance)
-        elif state == Clearance.BEYOND_MARGIN:
-            self.margin = min(self.margin, margin)
+            self.series['distance'].add(time, min(least, distance), distance)
+        elif clearance['state'] == Clearance.BEYOND_MARGIN:
+            self.margin = min(self.margin, float(clearance['margin']))
 
     def event(self, event, stamp):
         time, is_begin = self.clock.of_event(stamp), event.event == TouchEvent.BEGIN
-        if is_begin or not self.touches or self.touches[-1].seconds is not None:
+        is_open = self.touches and self.touches[-1].seconds is None
+        if is_begin and is_open:
+            self.touches[-1].__dict__.update(seconds=time - self.touches[-1].begin, reason='its end is missing')
+        if is_begin or not is_open:
             self.touches.append(SimpleNamespace(begin=time if is_begin else time - event.duration_sec, seconds=None,
                                                 deepest=None, faces=None, reason='goes on at the end'))
         if not is_begin:
             self.touches[-1].__dict__.update(seconds=event.duration_sec, deepest=event.deepest, faces=event.faces,
-                                             reason=event.reason)
+                                             reason=event.reason or 'moved off')
 
     def touch_sec(self):
         """The time of each touch."""
-        return [self.clock.last - touch.begin if touch.seconds is None else touch.seconds for touch in self.touches]
+        return [max(0.0, self.clock.last - touch.begin) if touch.seconds is None else touch.seconds for touch in self.touches]
 
     def force(self, time, force):
         self.largest_force, self.force_sum = max(force, self.largest_force or 0.0), self.force_sum + force
@@ -204,7 +211,7 @@ class Tool:
 class Trial:
     """Takes the messages, and keeps what a report needs.
 
-    nodes   names of the nodes that count; empty: all, of which one may be a collision node
+    nodes   names of the nodes that count; empty: all. Answers about one tool and organ come from one of them
     tips    {tool: TF frame of its tip, or topic of its poses, which begins with /}; None: no paths are kept
     series  makes what keeps the depths, distances and forces of a pair
     """
@@ -220,41 +227,42 @@ class Trial:
             or kind == 'geometry_msgs/PoseStamped' and topic in self.tips.values())
 
     def has(self, connection):
-        """Whether a topic of a node belongs to this trial. Raises TrialError if it cannot be read, or is of a second
-        node."""
+        """Whether a topic of a node belongs to this trial. Raises TrialError if it is of another version."""
         topic, kind, md5, node = connection
-        if kind not in KINDS:
-            return self.wants(topic, kind)
-        if self.nodes and node not in self.nodes and not topic.startswith(tuple(name + '/' for name in self.nodes)):
+        if kind in KINDS and self.nodes and node not in self.nodes and not topic.startswith(
+                tuple(name + '/' for name in self.nodes)):
             return False
-        if md5 != KINDS[kind]:
+        if KINDS.get(kind, md5) != md5:
             raise TrialError('%s has %s of another version of this package; report it with the version that recorded it, or '
                              'convert it with `rosbag fix`' % (topic, kind))
-        # Each tool of a haptic_proxy has a topic of states.
-        known = self.sources.setdefault((kind, topic if kind.endswith('State') else ''), (topic, node))
-        if known != (topic, node):
-            raise TrialError('%s of two nodes: %s from %s and %s from %s; choose with --node' % (
-                kind, known[0], known[1] or '?', topic, node or '?'))
-        return True
+        return self.wants(topic, kind)
 
     def take(self, connection, receipt, data):
-        """A message of a topic for which has() is true: the time of receipt [s], and its bytes."""
+        """A message of a topic for which has() is true: the time of receipt [s], and its bytes. Raises TrialError if another
+        node has answered about the same tool and organ, and ValueError if the bytes are damaged."""
         message, kind = decode(connection.kind, data), connection.kind.split('/')[1]
         if kind == 'TFMessage':
             return self.transforms(message.transforms, connection.topic.endswith('static'))
         stamp = seconds(message.header.stamp) or receipt
         if kind == 'PoseStamped':
-            for tool, tip in [its for its in self.tips.items() if its[1] == connection.topic]:
-                self.tools[tool].paths[tip].add(stamp, message.pose[0])
-        elif kind == 'ProxyState':
+            for tool in (tool for tool, tip in self.tips.items() if tip == connection.topic):
+                self.tools[tool].paths[connection.topic].add(stamp, message.pose['position'])
+            return
+        about = (message.tool, '' if kind == 'ProxyState' else message.organ)
+        known = self.sources.setdefault((kind, *about), connection)
+        if known is not connection and known != connection:
+            raise TrialError('%s about %s from two nodes: %s from %s and %s from %s; choose with --node' % (
+                kind, ' and '.join(filter(None, about)), known.topic, known.node or '?', connection.topic,
+                connection.node or '?'))
+        if kind == 'ProxyState':
             self.state(message, stamp)
         elif kind == 'ContactArray':
             self.tools[message.tool].links = message.links
-            self.pair(message.tool, message.organ).answer(message, stamp)
+            self.pair(*about).answer(message, stamp)
         elif kind == 'TouchEvent':
-            self.pair(message.tool, message.organ).event(message, stamp)
+            self.pair(*about).event(message, stamp)
         else:
-            self.pair(message.tool, message.organ).grasps.append(message)
+            self.pair(*about).grasps.append(message)
 
     def pair(self, *names):
         if names not in self.pairs:
@@ -267,12 +275,13 @@ class Trial:
         time = tool.clock(stamp, state.state != ProxyState.NO_ANSWER)
         if state.state == ProxyState.NO_ANSWER:
             return
-        on_hand = float(np.linalg.norm(state.wrench[0]))
+        on_hand = float(np.linalg.norm(state.wrench['force']))
         tool.largest_force = max(on_hand, tool.largest_force or 0.0)
         if self.tips is not None:
-            tool.paths[HAND].add(stamp, state.hand[0])
+            tool.paths[HAND].add(stamp, state.hand['position'])
         forces = {organ: 0.0 for name, organ in self.pairs if name == state.tool}
         for contact in state.contacts:
+            self.pair(state.tool, contact.organ).is_of_proxy = True
             forces[contact.organ] = forces.get(contact.organ, 0.0) + contact.force
         if state.state == ProxyState.PUNCTURED and tool.organ:
             forces[tool.organ] = on_hand  # The state names no organ: it is the one that was pressed last.
@@ -284,25 +293,19 @@ class Trial:
     def transforms(self, transforms, is_static):
         """Transforms of TF: where the tips are in the frame above all others. For frames that are not in this message,
         the transforms that came last count."""
+        moved = {}
         for one in transforms:
-            self.frames[one.child_frame_id.lstrip('/')] = (
-                one.header.frame_id.lstrip('/'), *(part.tolist() for part in one.transform))
-        moved = {} if is_static else {one.child_frame_id.lstrip('/'): seconds(one.header.stamp) for one in transforms}
+            child, part = one.child_frame_id.lstrip('/'), one.transform
+            self.frames[child] = (one.header.frame_id.lstrip('/'), Frame(
+                Rotation.Quaternion(*part['rotation'].tolist()), Vector(*part['translation'].tolist())))
+            moved[child] = 0.0 if is_static else seconds(one.header.stamp)
         for name, tool in self.tools.items():
             frames = [self.tips[name]] if name in self.tips else [name + '_tip', *tool.links[:1]]
             frame = tip = next((frame for frame in frames if frame in self.frames), None)
-            place, stamps = (0.0, 0.0, 0.0), []
+            place, stamps = Vector(), []
             while frame in self.frames and len(stamps) < 100:  # A loop of frames ends, too.
                 stamps.append(moved.get(frame, 0.0))
-                frame, translation, rotation = self.frames[frame]
-                place = _transformed(place, translation, rotation)
+                frame, transform = self.frames[frame]
+                place = transform * place
             if any(stamps):
                 tool.paths['frame ' + tip].add(max(stamps), place)
-
-
-def _transformed(point, translation, rotation):
-    """A point of a child frame in its parent frame."""
-    (a, b, c), (x, y, z, w) = point, rotation
-    u, v, s = 2 * (y * c - z * b), 2 * (z * a - x * c), 2 * (x * b - y * a)
-    return (a + w * u + y * s - z * v + translation[0], b + w * v + z * u - x * s + translation[1],
-            c + w * s + x * v - y * u + translation[2])

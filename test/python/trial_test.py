@@ -3,6 +3,8 @@
 Bags and limits that are wrong give one line, or a row of the report."""
 
 import csv
+import importlib.util
+import io
 import math
 import os
 import re
@@ -16,6 +18,8 @@ import genpy
 from geometry_msgs.msg import Point, Quaternion, Transform, TransformStamped, Vector3
 import numpy as np
 from organ_collision.msg import Clearance, Contact, ContactArray, ProxyContact, ProxyState, TouchEvent
+from organ_collision.recordings import Connection
+from organ_collision.trial import Trial, TrialError
 from PyKDL import Frame, Rotation, Vector
 import rosbag
 from std_msgs.msg import Header, String
@@ -23,7 +27,7 @@ from tf2_msgs.msg import TFMessage
 
 REPORT = os.environ['TRIAL_REPORT']
 NODE, STATE = '/organ_collision', '/haptic_proxy/probe/state'
-START, SECONDS, RATE = 1.7e9, 12.0, 500
+START, SECONDS, RATE = 1.7e9, 12.0, 200
 ORGANS = {'liver': 0.0, 'vena_cava': -0.004}  # [m] heights of two sheets
 RADIUS, MARGIN = 0.005, 0.004
 FAILS = (5.0, 6.5)  # [s] without transforms
@@ -93,7 +97,7 @@ class Scene:
 def write_bag(path, seconds=SECONDS, warp=lambda t: t, node=NODE, header=None, compression='none'):
     """A trial as rosbag record writes it, with the receipts 1 ms after the stamps. warp: of the stamps."""
     scene = Scene(np.random.default_rng(3))
-    with rosbag.Bag(path, 'w', compression=compression, chunk_threshold=100000) as bag:
+    with rosbag.Bag(path, 'w', compression=compression, chunk_threshold=40000) as bag:
         base = TransformStamped(Header(frame_id='world', stamp=genpy.Time.from_sec(START - 50)), 'base', Transform(
             Vector3(*BASE.p), Quaternion(*BASE.M.GetQuaternion())))
         bag.write('/tf_static', TFMessage([base]), genpy.Time.from_sec(START))
@@ -104,6 +108,20 @@ def write_bag(path, seconds=SECONDS, warp=lambda t: t, node=NODE, header=None, c
                 bag.write(topic.replace(NODE, node), message, genpy.Time.from_sec(START + t + 0.001),
                           connection_header=header and header(topic, message))
     return path
+
+
+def judged(*limits, seconds=3.0, change=lambda topic, message, t: [(topic, message)], node=NODE):
+    """The report of a trial whose messages were changed: `change` returns what comes instead of a message."""
+    spec = importlib.util.spec_from_file_location('trial_report', REPORT)
+    program = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(program)
+    scene, trial = Scene(np.random.default_rng(3)), Trial(tips={})
+    for t in np.arange(0, seconds, 1 / RATE).tolist():
+        for topic, message in (its for given in scene.messages(t) for its in change(*given, t)):
+            data = io.BytesIO()
+            message.serialize(data)
+            trial.take(Connection(topic, message._type, message._md5sum, node), START + t, data.getvalue())
+    return program.Report('trial', trial, limits, [])
 
 
 def read(path):
@@ -278,7 +296,7 @@ class TrialTest(unittest.TestCase):
     def test_limits_are_kept_broken_or_not_known(self):
         bag = self.trial()
         limits = self.limits('{organ: vena_cava, max_touches: 0}', '{organ: liver, max_force: 0.9}',
-                             '{tool: probe, max_depth: 0.1, max_path: 10}', '{organ: spleen, max_touches: 0}',
+                             '{tool: probe, max_depth: 0.1, max_path: 10}', '{organ: 5, max_touches: 0}',
                              '{organ: liver, min_distance: 0.001}', '{tool: probe, max_idle_sec: 1}',
                              '{organ: liver, max_touch_sec: 1.5}')
         done = self.run_report(bag, '--limits', limits)
@@ -286,7 +304,7 @@ class TrialTest(unittest.TestCase):
         self.assertEqual([row['state'] for row in rows],
                          ['broken', 'broken', 'unknown', 'kept', 'unknown', 'broken', 'broken', 'broken'])
         self.assertIn('13 %', rows[2]['why_not_known'])  # Answers failed for 1.5 of 12 s.
-        self.assertIn('spleen never came', rows[4]['why_not_known'])
+        self.assertIn('5 never came', rows[4]['why_not_known'])
         touches = [e for e in topics[NODE + '/touches'] if e.organ == 'vena_cava' and e.event == TouchEvent.BEGIN]
         self.assertEqual([float(word) for word in re.findall(r'(\S+) to', rows[0]['times_sec'])],
                          [round(seconds(e.header.stamp) - START, 2) for e in touches])
@@ -296,7 +314,7 @@ class TrialTest(unittest.TestCase):
                                    sum(c.force.z for c in m.contacts if c.organ == 'liver')]) > 0.9]
         parts = np.split(over, np.flatnonzero(np.diff(over) > 0.1) + 1)
         np.testing.assert_allclose([float(time) for time in re.findall(r'[\d.]+', rows[1]['times_sec'])],
-                                   [time for part in parts for time in (part[0], part[-1])], atol=0.008)
+                                   [time for part in parts for time in (part[0], part[-1])], atol=0.011)
         self.assertTrue(done.stdout.startswith('NOT GOOD: 5 of 8 limits were broken\n'), done.stdout)
         page = self.page()
         self.assertLess(page.index('NOT GOOD: 5 of 8'), page.index('<h2>'))  # on the first screen, with the times
@@ -328,16 +346,21 @@ class TrialTest(unittest.TestCase):
             at = whole.index(b'op=\x05', len(whole) // 2)
             file.seek(at - 8)
             file.write(b'\xff' * 16)
-        self.assertIn('damaged after', self.run_report(bag).stdout)
+        self.assertIn('damaged before', self.run_report(bag).stdout)
+        with open(bag, 'wb') as file:  # In a message: no count of contacts is that large.
+            at = whole.index(b'probe', len(whole) // 2) + 9
+            file.write(whole[:at] + b'\xff' * 60 + whole[at + 60:])
+        self.assertIn('damaged before', self.run_report(bag).stdout)
+        self.assertAlmostEqual(float(self.rows('trial.csv')[0]['answers']) / (SECONDS * RATE), 0.5, delta=0.06)
         with open(bag, 'wb') as file:
             file.write(whole.replace(b'index_pos=' + whole.split(b'index_pos=')[1][:8], b'index_pos=' + bytes(8), 1))
-        self.assertIn('not closed', self.run_report(bag).stdout)
+        self.assertIn('not closed by its recorder', self.run_report(bag).stdout)
         self.assertEqual(float(self.rows('trial.csv')[0]['answers']), SECONDS * RATE)
 
     def test_clocks_that_step_back_are_told_and_the_trial_goes_on(self):
         bag = write_bag(self.file('trial.bag'), warp=lambda t: t if t < 7.0 else t - 5.0)
         done = self.run_report(bag)
-        self.assertIn('The stamps about probe and liver step back by 4.998 s at 6.998 s', done.stdout)
+        self.assertIn('The stamps about probe and liver step back by 4.995 s at 6.995 s', done.stdout)
         whole = self.rows('trial.csv')
         self.trial()
         self.run_report(bag)
@@ -351,6 +374,9 @@ class TrialTest(unittest.TestCase):
         other = self.file('other.bag')
         with rosbag.Bag(other, 'w') as bag:
             bag.write('/chatter', String('hello'), genpy.Time(1))
+        self.assert_refused(other, says=['other.bag has no answers of a collision node'])
+        with rosbag.Bag(other, 'w') as bag:
+            bag.write(NODE + '/touches', TouchEvent(organ='liver', tool='probe'), genpy.Time(1))
         self.assert_refused(other, says=['other.bag has no answers of a collision node'])
         self.assert_refused(self.file('limits.yaml', 'limits: []'), says=['limits.yaml is no bag'])
         self.assert_refused(self.file('none.bag'), says=['none.bag'])
@@ -367,17 +393,90 @@ class TrialTest(unittest.TestCase):
                     for topic, message, stamp in part.read_messages():
                         if topic != STATE or path == one:
                             bag.write(topic, message, stamp)
-        self.assert_refused(both, says=['two nodes', '/organ_collision/contacts', '/second/contacts', '--node'])
+        self.assert_refused(both, says=['ContactArray about probe and ', ' from two nodes: ', '/organ_collision/contacts', '/second/contacts', '--node'])
         for node, answers in (NODE, RATE), ('/second', 2 * RATE):
             self.run_report(both, '--node', node)
             self.assertEqual(float(self.rows('trial.csv')[0]['answers']), answers)
+
+    def assert_unknown(self, report, *says):
+        (row,) = report.verdicts
+        self.assertEqual(row['state'], 'unknown', row)
+        for word in says:
+            self.assertIn(word, row['why_not_known'])
+
+    def test_what_was_not_recorded_is_not_known(self):
+        """Each of these trials was once called good."""
+        def without(topic, after=0.0):
+            return lambda where, message, t: [] if where.endswith(topic) and t >= after else [(where, message)]
+
+        def only_the_liver_has_forces(topic, message, t):
+            if topic == STATE:
+                message.contacts = [contact for contact in message.contacts if contact.organ == 'liver']
+            return [(topic, message)]
+
+        limit = ('max_touches', 5, 'probe', 'liver')
+        self.assertEqual(judged(limit).state, 'kept')
+        report = judged(limit, change=without('/touches'))
+        self.assert_unknown(report, 'no events on `touches`')
+        self.assertEqual([row['touches'] for row in report.pair_rows() if row['organ'] == 'liver'], [None])
+        self.assert_unknown(judged(limit, change=without('/contacts', 1.0)), 'no answers OK about probe and liver', '67 %')
+        self.assert_unknown(judged(('max_force', 50, None, 'vena_cava'), seconds=4.5, change=only_the_liver_has_forces),
+                            'haptic_proxy tells no force between probe and vena_cava')
+        self.assert_unknown(judged(('max_path', 50, 'probe', None), change=lambda topic, message, t: [] if t > 0.5 and (
+            topic in ('/tf', STATE)) else [(topic, message)]), 'the tip of probe was seen for 0.5 s only')
+
+    def test_a_distance_within_a_step_counts(self):
+        def fast(topic, message, t):
+            if topic.endswith('/contacts') and message.clearance.state == Clearance.KNOWN and not message.contacts:
+                message.clearance.least, message.clearance.distance = 0.001, 0.0035
+            return [(topic, message)] if not getattr(message, 'contacts', []) else []
+
+        report = judged(('min_distance', 0.003, 'probe', 'liver'), change=fast)
+        self.assertEqual((report.state, report.verdicts[0]['worst']), ('broken', '1.00 mm away'))
+
+    def test_an_event_that_was_lost(self):
+        """The next touch ends the one before, and an end without a beginning has its duration."""
+        def lossy(topic, message, t):
+            is_lost = topic.endswith('/touches') and (message.event, message.touch) in ((TouchEvent.END, 1), (TouchEvent.BEGIN, 3))
+            return [] if is_lost else [(topic, message)]
+
+        whole, rest = ([row for row in judged(seconds=SECONDS, change=change).touch_rows() if row['organ'] == 'liver']
+                       for change in (lambda topic, message, t: [(topic, message)], lossy))
+        self.assertGreater(len(whole), 2)
+        self.assertEqual(len(rest), len(whole))
+        self.assertEqual(rest[0]['end'], 'its end is missing')
+        self.assertAlmostEqual(rest[0]['duration_sec'], whole[1]['begin_sec'] - whole[0]['begin_sec'], places=6)
+        self.assertAlmostEqual(rest[2]['begin_sec'], whole[2]['begin_sec'], places=2)
+
+    def test_transforms_of_two_senders_with_clocks_apart(self):
+        """The parent's sender is 0.3 s late. The trial does not become longer by that."""
+        def late(topic, message, t):
+            if topic == '/tf':
+                stamp = genpy.Time.from_sec(START + t - 0.3)
+                yield topic, TFMessage([TransformStamped(Header(stamp=stamp, frame_id='world'), 'base', Transform(
+                    Vector3(1, 2, 3), Quaternion(0, 0, 0, 1)))])
+            yield topic, message
+
+        path = judged(change=late).paths['probe']
+        self.assertAlmostEqual(path.path_sec, 3.0, delta=0.05)
+        length = sum(np.linalg.norm(tip(t + 0.01) - tip(t)) for t in np.arange(0, 2.99, 0.01))
+        self.assertAlmostEqual(path.path, length, delta=0.01 * length)
+
+    def test_two_nodes_with_an_organ_each_are_one_trial(self):
+        def shared(topic, message, t):
+            return [(topic.replace(NODE, '/second') if getattr(message, 'organ', '') == 'liver' else topic, message)]
+
+        self.assertEqual({row['organ']: row['answers'] for row in judged(seconds=0.5, change=shared).pair_rows()},
+                         {organ: RATE / 2 for organ in ORGANS})
+        with self.assertRaisesRegex(TrialError, 'ContactArray about probe and liver from two nodes'):
+            judged(seconds=0.5, change=lambda topic, message, t: [*shared(topic, message, t), (topic, message)])
 
     def test_wrong_limits_are_one_line(self):
         bag = write_bag(self.file('trial.bag'), seconds=0.1)
         for entry, says in (('{organ: liver, max_forse: 2}', ["limit 1: unknown key 'max_forse'", 'max_force']),
                             ('{organ: liver, max_force: two}', ["max_force is 'two'"]),
                             ('{organ: liver, max_force: -1}', ['max_force is -1']),
-                            ('{organ: liver}', ['limits nothing']), ('liver', ['limits.yaml']),
+                            ('{organ: 5}', ['limits nothing']), ('liver', ['limits.yaml']),
                             ('{organ: liver, max_path: 1}', ['is about a tool'])):
             self.assert_refused(bag, '--limits', self.limits(entry), says=says)
         self.assert_refused(bag, '--limits', self.file('limits.yaml', 'liver: 2'), says=['limits.yaml has no list `limits`'])
