@@ -127,7 +127,9 @@ def read_bag(path, trial):
                 if time.monotonic() > shown + 1:
                     shown = time.monotonic()
                     print('\r%3.0f %% of %s' % (100 * file.tell() / size, path), end='', file=sys.stderr, flush=True)
-        except (struct.error, KeyError, ValueError, OSError, EOFError) as error:
+        except EOFError:
+            fault = fault or 'cut after %d bytes' % size
+        except (struct.error, KeyError, ValueError, OSError) as error:
             fault = fault or 'damaged before byte %d of %d (%r)' % (file.tell(), size, error)
     print('\r' + ' ' * (len(path) + 9), end='\r', file=sys.stderr)
     return fault

@@ -176,12 +176,13 @@ class Pair:
 
     def event(self, event, stamp):
         time, is_begin = self.clock.of_event(stamp), event.event == TouchEvent.BEGIN
-        is_open = self.touches and self.touches[-1].seconds is None
-        if is_begin and is_open:
-            self.touches[-1].__dict__.update(seconds=time - self.touches[-1].begin, reason='its end is missing')
-        if is_begin or not is_open:
-            self.touches.append(SimpleNamespace(begin=time if is_begin else time - event.duration_sec, seconds=None,
-                                                deepest=None, faces=None, reason='goes on at the end'))
+        begin = time if is_begin else time - event.duration_sec
+        last = self.touches[-1] if self.touches and self.touches[-1].seconds is None else None
+        if last and (is_begin or last.number != event.touch):
+            last.seconds, last.reason, last = begin - last.begin, 'its end is missing', None
+        if not last:
+            self.touches.append(SimpleNamespace(begin=begin, seconds=None, deepest=None, faces=None, number=event.touch,
+                                                reason='goes on at the end'))
         if not is_begin:
             self.touches[-1].__dict__.update(seconds=event.duration_sec, deepest=event.deepest, faces=event.faces,
                                              reason=event.reason or 'moved off')

@@ -43,5 +43,6 @@ def draw(figure, trial, tool, start, speed=None, limits=()):
     for organ, colour in colours.items():
         figure.axes[0].plot([], [], color=colour, label=organ)
     figure.axes[0].set_title(tool, fontsize=9)
-    figure.axes[0].legend(loc='upper right', fontsize=7)
+    if pairs:
+        figure.axes[0].legend(loc='upper right', fontsize=7)
     figure.align_ylabels()
