@@ -45,7 +45,7 @@ def read_limits(path):
     except (OSError, yaml.YAMLError, TypeError, KeyError, UnicodeError) as error:
         raise TrialError('%s has no list `limits`: %s' % (path, ' '.join(str(error).split()))) from error
     for number, keys in enumerate(entries, 1):
-        tool, organ = (keys[name] and str(keys.pop(name)) if name in keys else None for name in ('tool', 'organ'))
+        tool, organ = (None if name is None else str(name) for name in (keys.pop('tool', None), keys.pop('organ', None)))
         where = '%s, limit %d: ' % (path, number)
         if not keys:
             raise TrialError(where + 'it limits nothing; legal are ' + ', '.join(LIMITS))
@@ -55,7 +55,7 @@ def read_limits(path):
                 raise TrialError(where + 'unknown key %r; did you mean %s?' % (key, near[0]))
             if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0 <= value < float('inf'):
                 raise TrialError(where + '%s is %r; must be a number from 0 on' % (key, value))
-            if organ and key not in OF_PAIR:
+            if organ is not None and key not in OF_PAIR:
                 raise TrialError(where + '%s is about a tool; leave out organ' % key)
             yield key, value, tool, organ
 

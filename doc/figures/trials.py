@@ -2,7 +2,7 @@
 """Draws trial_report.png from a bag of the demo, as trial_report.py shows its palpator, and sculpt.png from the clay that
 sculpt.launch has carved.
 
-Usage: doc/figures/trial_report.py demo.bag clay.npz, after ./run_demo --seconds 20 --record demo.bag, . devel/setup.bash, and
+Usage: doc/figures/trials.py demo.bag clay.npz, after ./run_demo --seconds 20 --record demo.bag, . devel/setup.bash, and
 roslaunch organ_collision sculpt.launch save:=$PWD/clay.npz
 """
 
