@@ -65,8 +65,9 @@ class Report:
 
     def __init__(self, name, trial, limits, notes):
         self.name, self.trial, self.limits = name, trial, limits
-        self.paths = {name: tool.paths[tool.tip].measures() if tool.tip else None for name, tool in trial.tools.items()}
-        clocks = [of.clock for of in (*trial.tools.values(), *trial.pairs.values())]
+        tools = {name: trial.tools[name] for name in {*trial.tools, *(name for name, _ in trial.pairs)}}
+        self.paths = {name: tool.paths[tool.tip].measures() if tool.tip else None for name, tool in tools.items()}
+        clocks = [of.clock for of in (*tools.values(), *trial.pairs.values())]
         self.start, self.end = min(clock.first for clock in clocks), max(clock.last for clock in clocks)
         self.notes = notes + ['The stamps about %s and %s step back by %.3f s at %.3f s. The trial goes on from there.' % (
             *names, by, at - self.start) for names, pair in trial.pairs.items() for at, by in pair.clock.back]

@@ -431,6 +431,16 @@ class TrialTest(unittest.TestCase):
         self.assert_unknown(judged(('max_path', 50, 'probe', None), change=lambda topic, message, t: [] if t > 0.5 and (
             topic in ('/tf', STATE)) else [(topic, message)]), 'the tip of probe was seen for 0.5 s only')
 
+    def test_a_tool_of_which_only_events_are_there(self):
+        def renamed(topic, message, t):
+            if topic.endswith('/touches'):
+                message.tool = 'other'
+            return [(topic, message)]
+
+        report = judged(('max_touches', 0, 'other', None), change=renamed)
+        self.assertEqual(report.state, 'broken')
+        self.assertEqual({row['answers'] for row in report.pair_rows() if row['tool'] == 'other'}, {0})
+
     def test_a_distance_within_a_step_counts(self):
         def fast(topic, message, t):
             if topic.endswith('/contacts') and message.clearance.state == Clearance.KNOWN and not message.contacts:
