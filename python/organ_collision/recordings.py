@@ -77,7 +77,7 @@ def _read(of, data, at):
         part, values = of[:-2], []
         if _fixed(part):
             kind = np.dtype([('value', _fixed(part))])  # As a record: numpy would make several numbers of a row.
-            return np.frombuffer(data, kind, count, at)['value'] if count else (), at + count * kind.itemsize
+            return np.frombuffer(data, kind, count, at)['value'], at + count * kind.itemsize
         for _ in range(count):
             value, at = _read(part, data, at)
             values.append(value)
