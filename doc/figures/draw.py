@@ -4,7 +4,7 @@
 Usage: doc/figures/draw.py [FOLDER]
 
 Writes one SVG for each figure into FOLDER (default: the folder of this script). The same version of
-matplotlib writes the same bytes. Needs python3-matplotlib (scripts/packages.txt, column benchmark).
+matplotlib writes the same bytes. Needs python3-matplotlib (scripts/packages.txt).
 """
 
 import importlib

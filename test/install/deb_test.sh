@@ -1,6 +1,12 @@
 #!/usr/bin/env bash
 # Installs the Debian packages into this system and uses them as users would. It is run by hand, as root, in a bare
-# Debian 12 or 13 without other ROS programs; doc/install.md shows how. It changes the system.
+# Debian 12 or 13 (trixie) without other ROS programs. It changes the system. From the repository's folder:
+#   debootstrap --variant=minbase bookworm /tmp/bare http://deb.debian.org/debian
+#   mount -t proc proc /tmp/bare/proc
+#   mount --rbind /dev /tmp/bare/dev
+#   cp -r build/debs test/install /tmp/bare/root/
+#   chroot /tmp/bare /root/install/deb_test.sh /root/debs
+#   umount -l /tmp/bare/dev /tmp/bare/proc
 set -euo pipefail
 
 if [ $# != 1 ] || [ ! -d "$1" ]; then

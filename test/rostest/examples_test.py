@@ -1,12 +1,17 @@
 #!/usr/bin/python3
 """The launch files of examples/ and their programs do what the pages say. Other tests run the robots."""
 
+import csv
+import os
 import re
 import signal
 import subprocess
 import sys
+import tempfile
+import zipfile
 
 from geometry_msgs.msg import PoseStamped, Vector3, WrenchStamped
+import matplotlib.image
 import numpy as np
 from organ_collision import contact_table
 from organ_collision.msg import ContactArray, OrganMesh, OrganVertices, ProxyState, VertexForces
@@ -15,6 +20,7 @@ import rospy
 from rosgraph_msgs.msg import Log as LogLine
 import rostest
 from std_msgs.msg import Bool
+from tf2_msgs.msg import TFMessage
 
 from support import scenes
 from support.launch_case import LaunchCase, files
@@ -22,9 +28,11 @@ from support.node_client import LIMIT, ContactLog, Log, NodeClient, pose_stamped
 from support.processes import NodeStarter, program
 
 LONG = 90.0  # [s]
-TESTED = {'ambf/ambf', 'sofa/sofa', 'start', 'mesh_adapter', 'two_hosts', 'haptics', 'dvrk', 'fem_tissue', 'forces', 'numpy'}
+TESTED = {'ambf/ambf', 'sofa/sofa', 'start', 'mesh_adapter', 'two_hosts', 'haptics', 'dvrk', 'fem_tissue', 'forces',
+          'numpy', 'sculpt'}
 ELSEWHERE = {'grasper', 'plan'}  # robots.test
 FEM_STEP = 0.004  # [s] of fem_tissue
+CLAY, CELL, BALL = (65, 45), 0.001, 0.006  # vertices of the top of sculpt.py's block; [m], [m] radius
 
 
 def vector(v):
@@ -126,13 +134,60 @@ class ExamplesTest(LaunchCase, NodeStarter):
                 wait_until(lambda: any(answer.contacts for answer in log.of(organ, tool, status=0)),
                            'contacts of ' + organ)
 
+    def test_sculpt(self):
+        """The carved clay is what the ball swept, to a cell."""
+        path, frames = os.path.join(tempfile.mkdtemp(), 'clay.npz'), Log('/tf', TFMessage)
+        with self.launched('examples/sculpt.launch', 'seconds:=6', 'save:=' + path):
+            wait_until(lambda: os.path.exists(path) and zipfile.is_zipfile(path), 'the clay', 200.0)
+        vertices = np.load(path)['vertices']
+        top = vertices[:CLAY[0] * CLAY[1]]
+        swept = np.zeros(len(top))
+        for place in {vector(one.transform.translation).tobytes() for m in frames.messages for one in m.transforms}:
+            x, y, z = np.frombuffer(place)
+            above = BALL ** 2 - (top[:, 0] - x) ** 2 - (top[:, 1] - y) ** 2
+            swept = np.minimum(swept, np.where(above > 0, z - np.sqrt(np.maximum(0, above)), 0))
+        self.assertLess(swept.min(), -0.002)
+        self.assertLess(np.abs(top[:, 2] - swept).max(), CELL)
+        self.assertLess(np.abs(top[:, 2] - swept).mean(), 0.1 * CELL)
+        self.assertEqual(len(np.unique(top[:, :2], axis=0)), len(top))  # The rest of the block is as it was.
+        self.assertEqual(set(vertices[len(top):, 2]), {vertices[-1, 2]})
+
+    def check_report_and_plot(self):
+        """trial_report.py and plot.py about the running nodes."""
+        folder = tempfile.mkdtemp()
+        limits = os.path.join(folder, 'limits.yaml')
+        with open(limits, 'w') as text:
+            text.write('limits:\n  - {organ: tissue, max_force: 0.001}\n  - {organ: bone, max_touches: 0}\n')
+        states, answers = Log('/haptic_proxy/probe/state', ProxyState), ContactLog('/organ_collision/contacts')
+        said = subprocess.check_output([program('trial_report.py'), '--live', '8', '--limits', limits, '--out', folder + '/live'],
+                                       text=True)
+        self.assertIn('NOT GOOD: 1 of 2 limits were broken', said)
+        self.assertIn('bone never came', said)
+        with open(folder + '/live.csv') as text:
+            (row,) = csv.DictReader(text)
+        self.assertEqual((row['tool'], row['organ'], row['tip']), ('probe', 'tissue', 'hand of haptic_proxy'))
+        # This test listened a little longer.
+        self.assertLessEqual(float(row['largest_hand_force_N']),
+                             max(np.linalg.norm(force_of(state)) for state in states.messages) + 1e-9)
+        self.assertTrue(0 < float(row['deepest_m']) <= max(c.depth for a in answers.messages for c in a.contacts))
+        self.assertGreater(float(row['path_m']), 0.001)
+        self.assertGreater(int(row['answers']), 10)
+        picture = folder + '/plot.png'
+        subprocess.check_call([program('plot.py'), 'probe', '--seconds', '3', '--png', picture])
+        self.assertGreater(len({tuple(colour) for colour in matplotlib.image.imread(picture)[:, :, :3].reshape(-1, 3)}), 20)
+        refused = subprocess.run([program('plot.py'), 'prob', '--seconds', '1', '--png', picture], stderr=subprocess.PIPE,
+                                 text=True)
+        self.assertEqual((refused.returncode, refused.stderr),
+                         (2, 'plot.py: no answers about prob within 1 s; tools with answers: probe\n'))
+
     def test_numpy(self):
-        """Contacts and a force come back, and no shape is refused."""
+        """Contacts and a force come back, and no shape is refused. The report and the plots show them."""
         with self.launched('examples/numpy.launch') as launched:
             log, states = ContactLog('/organ_collision/contacts'), Log('/haptic_proxy/probe/state', ProxyState)
             wait_until(lambda: any(answer.contacts for answer in log.of('tissue', 'probe', status=0)), 'contacts')
             wait_until(lambda: states.last(lambda state: state.state == ProxyState.TOUCHING
                                            and state.wrench.force.z > 0.2), lambda: 'a force: %s' % states.last())
+            self.check_report_and_plot()
         self.assertNotIn('refused', launched.printed)
 
     def test_haptics(self):

@@ -24,7 +24,8 @@ from support.processes import NodeStarter, nodes_online, program
 # The tools of haptic_proxy.
 HANDS = {'config/demo_hands.yaml', 'examples/haptics.yaml', 'examples/lockstep.yaml', 'examples/ambf/hand.yaml',
          'examples/sofa/hand.yaml'}
-OF_AMBF = {'examples/ambf/scene.yaml', 'examples/ambf/environment.yaml'}  # Only AMBF reads them.
+# AMBF and trial_report.py read them.
+OF_OTHERS = {'examples/ambf/scene.yaml', 'examples/ambf/environment.yaml', 'examples/limits.yaml'}
 
 
 def shown_topics(displays):
@@ -139,7 +140,7 @@ class LaunchFilesTest(LaunchCase, NodeStarter):
         them, and a file with organs a mesh adapter that accepts their meshes. None reports an unknown name."""
         started = set()
         folders = 'config', 'examples', 'examples/ambf', 'examples/sofa'
-        for path in sorted(set().union(*(files(folder, '.yaml') for folder in folders)) - OF_AMBF):
+        for path in sorted(set().union(*(files(folder, '.yaml') for folder in folders)) - OF_OTHERS):
             with open(os.path.join(PACKAGE, path)) as text:
                 parameters = yaml.safe_load(text)
             name = '/from_' + re.sub(r'\W', '_', path)
