@@ -21,7 +21,7 @@ import tf2_ros
 TROCAR = Frame(Rotation.RotX(np.pi), Vector(0, 0, 0.13))
 ABOVE, DOWN = 0.075, 0.095     # the insertion of the shaft
 OPEN, SQUEEZE = 0.6, 0.02      # the angle of each jaw; how much further the jaws close when they hold something
-RATE, CLOSING = 100.0, 0.3     # [Hz], [rad/s]
+RATE, CLOSING = 100.0, 0.2     # [Hz], [rad/s]
 WIDTH, ACROSS, ALONG = 0.06, 50, 20  # of the sheet along the fold; its cells across and along the fold
 # The profile across the fold: the lengths of its sections, and the slopes of the sheet where they meet.
 SECTIONS = 0.018, 0.006, 0.008, 0.0075, 0.008, 0.006, 0.018

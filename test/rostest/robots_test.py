@@ -32,6 +32,7 @@ class RobotLog:
 
     def __init__(self):
         self.states = []
+        self.stamps = set()  # for which TF has the wrist, without interpolation
         self.transforms = tf2_ros.Buffer(rospy.Duration(1000.0))
         self.subscribers = [
             rospy.Subscriber('/tf', TFMessage, self._add, queue_size=10000),
@@ -43,14 +44,16 @@ class RobotLog:
         add = self.transforms.set_transform_static if resting else self.transforms.set_transform
         for transform in message.transforms:
             add(transform, 'test')
+            if transform.child_frame_id == 'grasper_wrist':
+                self.stamps.add(transform.header.stamp)
 
     def close(self):
         for subscriber in self.subscribers:
             subscriber.unregister()
 
-    def knows(self, *stamps, organ='liver'):
-        """Whether it knows where all links were in the frame of the organ."""
-        return all(self.transforms.can_transform(organ, link, stamp) for link in LINKS for stamp in stamps)
+    def knows(self, *stamps):
+        """Whether it knows where all links were in the frame of the liver."""
+        return all(self.transforms.can_transform('liver', link, stamp) for link in LINKS for stamp in stamps)
 
     def pose(self, frame, stamp, organ='liver'):
         """Where the frame was in that of the organ."""
@@ -93,12 +96,12 @@ class RobotsTest(LaunchCase):
             stamp, vertices = shape.header.stamp, np.array(shape.vertices).reshape(-1, 3)
             is_within = grasped.header.stamp < stamp < released.header.stamp
             # Between the grasp and the message about it, the tissue rests.
-            if is_within and np.any(vertices[held] != rest[held]) and self.robot.knows(stamp, organ='fold'):
+            if is_within and np.any(vertices[held] != rest[held]) and stamp in self.robot.stamps:
                 wrist = self.robot.pose('grasper_wrist', stamp, organ='fold')
                 places.append([wrist.inverse().apply(v) for v in vertices[held]])
                 heights.append(np.mean((vertices - rest)[held, 2]))
         places = np.array(places)
-        self.assertGreater(len(places), 100)
+        self.assertGreater(len(places), 20)
         self.assertLess(np.abs(places - places[0]).max(), 1e-6)
         self.assertLess(np.abs(places[0, :, 0]).max(), 0.005)
         self.assertTrue(np.all((places[0, :, 2] > 0.009) & (places[0, :, 2] < TIP[2] + 0.002)), places[0])
