@@ -22,7 +22,9 @@ bool oppose(const Vector3d& first, const Vector3d& second, const Vector3d& d, do
   return first.dot(d) >= least_cosine * length && -second.dot(d) >= least_cosine * length;
 }
 
-/// The contacts of the second jaw, in boxes within boxes.
+/// The contacts of the second jaw, in boxes within boxes. If each jaw has some 500 contacts, a
+/// comparison of all pairs takes as long as the query that found them, and the tree a tenth of
+/// that.
 class ContactTree {
  public:
   explicit ContactTree(const std::vector<JawContact>& contacts)

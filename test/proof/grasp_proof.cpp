@@ -380,6 +380,10 @@ Tally compare_scattered(Random& random) {
   return tally;
 }
 
+bool is_right(const Tally& tally) {
+  return tally.get("wrong") == 0.0 && tally.get("not as expected") == 0.0;
+}
+
 }  // namespace
 
 bool prove_grasps(const ProofSize& size, Progress& progress) {
@@ -393,12 +397,16 @@ bool prove_grasps(const ProofSize& size, Progress& progress) {
     for (long i = 0; i < each; ++i) {
       progress.show("grasps, " + names[kind], i, each);
       const bool closes = kind < std::size(kKinds);
-      tallies[kind].add(closes ? proof.close(kKinds[kind]) : compare_scattered(random));
+      const Tally tally = closes ? proof.close(kKinds[kind]) : compare_scattered(random);
+      if (!is_right(tally)) {  // The seed and the number repeat it.
+        std::cout << "grasps differ: " << names[kind] << ", closing " << i << ", seed " << size.seed
+                  << std::endl;
+      }
+      tallies[kind].add(tally);
     }
   }
   print_table("jaws and tissue", names, tallies);
-  const Tally sum = sum_of(tallies);
-  return sum.get("wrong") == 0.0 && sum.get("not as expected") == 0.0;
+  return is_right(sum_of(tallies));
 }
 
 }  // namespace organ_collision::oracle
