@@ -59,11 +59,6 @@ TouchedByJaw touched_by(const std::vector<std::string>& jaw, const ContactArray&
   return touched;
 }
 
-/// [s] The difference of extreme stamps does not fit ros::Duration.
-double duration_sec(ros::Time from, ros::Time to) {
-  return std::max(0.0, to.toSec() - from.toSec());
-}
-
 }  // namespace
 
 void TouchTracker::follow(const ContactArray& answer, Time now, const Jaws& jaws) {
@@ -125,7 +120,7 @@ void TouchTracker::end(Pair& pair, ros::Time stamp, const std::string& reason) {
   event.event = TouchEvent::END;
   event.touch = pair.count;
   event.header.stamp = stamp;
-  event.duration_sec = duration_sec(pair.began, stamp);
+  event.duration_sec = std::max(0.0, seconds_between(pair.began, stamp));
   event.deepest = pair.deepest;
   event.faces = static_cast<std::uint32_t>(pair.earlier_faces + pair.faces.size());
   event.reason = reason;
@@ -161,7 +156,7 @@ void TouchTracker::follow_grasp(const ContactArray& answer, const Jaws& jaws, Pa
 void TouchTracker::release(Pair& pair, const std::string& reason) {
   Grasp& grasp = *pair.grasp;
   grasp.event = Grasp::RELEASED;
-  grasp.duration_sec = duration_sec(pair.grasped, pair.last);
+  grasp.duration_sec = std::max(0.0, seconds_between(pair.grasped, pair.last));
   grasp.reason = reason;
   publish_grasp_(grasp);
   pair.grasp.reset();
