@@ -31,6 +31,6 @@ install(PROGRAMS examples/ask.py examples/ask_many.py examples/crtk_hand.py exam
   examples/obey_guard.py examples/own_mesh.py examples/plan_grasper.py examples/sculpt.py examples/simulator.py
   scripts/demo_report.py scripts/plot.py scripts/pose_adapter.py scripts/trial_report.py scripts/view.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
-# plan_grasper.py imports these from its own folder.
+# plan_grasper.py and grasper.py import these from their own folder.
 install(FILES examples/grasper_kinematics.py examples/rrt_connect.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})

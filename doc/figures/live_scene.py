@@ -108,13 +108,13 @@ class Camera:
         return (0.5 * self.size[0] + scale * (way @ right), 0.5 * self.size[1] - scale * (way @ np.cross(back, right)))
 
 
-def rviz_picture(output, camera, markers):
+def rviz_picture(output, camera, markers, frame='liver'):
     """A picture of RViz, which shows the markers that StillMarkers.still() has published. Needs rviz, xvfb and
     imagemagick."""
     with open(os.path.join(HERE, '..', '..', view.CONFIGURATION)) as text:
         configuration = yaml.safe_load(text)
     manager = configuration['Visualization Manager']
-    manager['Global Options'].update({'Fixed Frame': 'liver', 'Background Color': camera.background})
+    manager['Global Options'].update({'Fixed Frame': frame, 'Background Color': camera.background})
     manager['Displays'] = [{'Class': 'rviz/MarkerArray', 'Name': 'still', 'Enabled': True, 'Namespaces': {},
                             'Marker Topic': markers.publisher.resolved_name, 'Queue Size': 4000}]
     orbit = manager['Views']['Current']

@@ -57,7 +57,7 @@ class CollisionNode final : public OrganNode {
   NodeCore& core_;
   const NodeParameters& parameters_;
   NodeCounters counters_;
-  ros::Publisher contacts_, touch_events_;
+  ros::Publisher contacts_, touch_events_, grasps_;
   TouchTracker touches_;
   std::vector<SwapWatch> swaps_;  ///< of each tool
   MarkerPublisher markers_;
@@ -72,7 +72,9 @@ CollisionNode::CollisionNode(NodeCore& core, const NodeParameters& parameters)
       parameters_(parameters),
       contacts_(core.private_node().advertise<ContactArray>(names::kContacts, kContactQueue)),
       touch_events_(core.private_node().advertise<TouchEvent>(names::kTouches, kTouchQueue)),
-      touches_([this](const TouchEvent& event) { touch_events_.publish(event); }),
+      grasps_(core.private_node().advertise<Grasp>(names::kGrasps, kTouchQueue)),
+      touches_([this](const TouchEvent& event) { touch_events_.publish(event); },
+               [this](const Grasp& event) { grasps_.publish(event); }),
       swaps_(core.tools().size()),
       markers_(core.private_node(), parameters.markers, core.tools()),
       pipeline_(parameters, core.tools(), counters_.rejected,
@@ -160,7 +162,7 @@ void CollisionNode::publish(const ToolStep& step) {
   }
   if (answer.status == ContactArray::OK) counters_.query_times.add(step.query_sec);
   contacts_.publish(step.answer);
-  touches_.follow(answer, core_.loop().now());
+  touches_.follow(answer, core_.loop().now(), core_.tools()[step.tool].parameters.jaws);
   ++counters_.published;
   markers_.add(step);
   if (answer.status == ContactArray::OK && step.moves) watch_ends(step);

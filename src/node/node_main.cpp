@@ -1,5 +1,6 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <organ_collision/ContactArray.h>
+#include <organ_collision/Grasp.h>
 #include <organ_collision/QueryCollision.h>
 #include <organ_collision/QueryCollisionBatch.h>
 #include <organ_collision/TouchEvent.h>
@@ -26,6 +27,8 @@ ProgramHelp node_help() {
        "message for each tool and each evaluated shape or pose, also when nothing is touched"},
       {names::kTouches, message_type<TouchEvent>(),
        "when a tool begins to touch an organ, and when it ceases"},
+      {names::kGrasps, message_type<Grasp>(),
+       "when the jaws of a tool grasp tissue, and when they let it go: its faces and thickness"},
       {names::kMarkers, message_type<visualization_msgs::MarkerArray>(),
        "organs, tools, swept surfaces, contacts, clearances, near faces and crossings, for RViz"},
       {"/diagnostics", message_type<diagnostic_msgs::DiagnosticArray>(),

@@ -7,6 +7,7 @@
 // clearance  Distances of tools at rest are compared with exact arithmetic, and the least distances
 //            of steps with a search.
 // placement  Sides and crossings are compared with exact arithmetic.
+// grasps     Jaws close on tissue of 1 to 30 mm; the grasped pairs are compared with a search.
 // misses     Only on request: how many faces the paper's viewing volume misses.
 #include <cstdlib>
 #include <iostream>
@@ -37,7 +38,7 @@ int main(int argc, char** argv) {
       size.seed = static_cast<unsigned long>(value);
     } else {
       std::cerr << "usage: exactness_proof [--pairs N] [--seed N] [--part NAME]; N is a positive "
-                   "number, NAME is contacts, clearance, placement or misses\n";
+                   "number, NAME is contacts, clearance, placement, grasps or misses\n";
       return 2;
     }
   }

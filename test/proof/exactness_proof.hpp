@@ -72,6 +72,8 @@ bool prove_contacts(const ProofSize& size, Progress& progress);
 bool prove_clearance(const ProofSize& size, Progress& progress);
 /// Sides and crossings; and the clearance of the same tools.
 bool prove_placement(const ProofSize& size, Progress& progress);
+/// Jaws close on tissue, a tenth as often: what they grasp is compared with all pairs of contacts.
+bool prove_grasps(const ProofSize& size, Progress& progress);
 /// Prints how many of the faces that a swept capsule touches are missed by the paper's volume.
 /// Returns whether ours misses none.
 bool count_paper_misses(const ProofSize& size, Progress& progress);
@@ -80,7 +82,9 @@ struct Proof {
   const char* name;
   bool (*prove)(const ProofSize& size, Progress& progress);
 };
-inline constexpr Proof kProofs[] = {
-    {"contacts", prove_contacts}, {"clearance", prove_clearance}, {"placement", prove_placement}};
+inline constexpr Proof kProofs[] = {{"contacts", prove_contacts},
+                                    {"clearance", prove_clearance},
+                                    {"placement", prove_placement},
+                                    {"grasps", prove_grasps}};
 
 }  // namespace organ_collision::oracle

@@ -8,13 +8,15 @@ import threading
 
 from dynamic_reconfigure.client import Client
 from geometry_msgs.msg import PoseStamped
-from organ_collision.msg import ContactArray
+from organ_collision.msg import ContactArray, Grasp
+from organ_collision.srv import ListTools
 import rospy
 import rostest
 from std_srvs.srv import Trigger
 
+from support import scenes
 from support.contact_case import KeepsContract
-from support.node_client import LIMIT, is_heard, pose_stamped, wait_until
+from support.node_client import LIMIT, Log, is_heard, pose_stamped, wait_until
 from support.tool_case import ToolCase
 from support.tool_over_sheet import SHEET, at_height
 
@@ -28,8 +30,18 @@ def shaft(name, radius=0.005, **more):
     return dict(name=name, trocar_frame=name + '_trocar', tip_frame=name + '_tip', radius=radius, **more)
 
 
+PINCERS = {'name': 'pincers', 'links': ['upper', 'lower'], 'first_jaw': ['upper'], 'second_jaw': ['lower'],
+           'robot_description': '/robots/pincers', 'tf_prefix': 'pincers'}
+
+
+def pinching(height):
+    """The centres of the two balls, of a radius of 6 mm: above and below one place of the sheet."""
+    return {'pincers': ((0.013, 0.007, height), (0.013, 0.007, -height))}
+
+
 class LiveChangesTest(KeepsContract, ToolCase):
     node_name = NODE
+    link_frames = {'pincers': ('pincers/upper', 'pincers/lower')}
 
     @classmethod
     def setUpClass(cls):
@@ -103,6 +115,45 @@ class LiveChangesTest(KeepsContract, ToolCase):
         self.assertGreater(steps, 2)
         self.assert_no_gap('kept')
         self.assertEqual(self.reloaded(), "removed: 'kept'")
+
+    def test_a_grasp_goes_on_through_reloads_and_cuts(self):
+        """It ends when the jaws open, and with a reason where something else ends it."""
+        grasps = Log(NODE + '/grasps', Grasp).wait_for_publisher()
+        told = lambda: [(g.grasp, g.event, g.topology, g.reason) for g in grasps.select(lambda g: g.organ == self.organ)]
+        self.assertEqual(self.reloaded(PINCERS), "new: 'pincers'")
+        tool, = rospy.ServiceProxy(NODE + '/list_tools', ListTools)().tools
+        self.assertEqual((tool.first_jaw, tool.second_jaw), (['upper'], ['lower']))
+        self.step(SHEET, pinching(0.0065))
+        answer = self.step(SHEET, pinching(0.0055), vertices=True)['pincers']
+        wait_until(told, 'the grasp')
+        grasped = grasps.last()
+        self.assertEqual((grasped.header.frame_id, grasped.header.stamp, grasped.tool, grasped.reason),
+                         (self.node.frame, answer.header.stamp, 'pincers', ''))
+        for link, faces in enumerate((grasped.faces_first, grasped.faces_second)):
+            self.assertEqual(list(faces), sorted({c.face for c in answer.contacts if c.link == link and c.touching}))
+            self.assertGreater(len(faces), 0)
+        self.assertLess(grasped.thickness, 0.001)
+        self.assertEqual(self.reloaded(shaft('saw'), PINCERS), "unchanged: 'pincers'; new: 'saw'")
+        cut = scenes.sheet(0.1, 5)
+        self.step(cut, pinching(0.0055), topology=2)
+        end = self.step(cut, pinching(0.0065), topology=2, vertices=True)['pincers'].header.stamp
+        wait_until(lambda: len(told()) > 1, 'the release')
+        self.assertEqual((grasps.last().header.stamp, list(grasps.last().faces_first)), (end, []))
+        self.assertAlmostEqual(grasps.last().duration_sec, (end - grasped.header.stamp).to_sec(), delta=1e-6)
+        events = [(1, Grasp.GRASPED, 1, ''), (1, Grasp.RELEASED, 2, '')]
+        self.assertEqual(told(), events)
+        for number, reason, act in ((2, 'reset', self.node.reset),
+                                    (3, 'organ removed', lambda: self.node.remove(self.organ)),
+                                    (1, 'tools changed', lambda: self.reloaded(shaft('saw')))):
+            self.step(SHEET, pinching(0.0055), topology=1)
+            wait_until(lambda: told()[-1][1] == Grasp.GRASPED, 'a grasp')
+            act()
+            wait_until(lambda: told()[-1][1] == Grasp.RELEASED, reason)
+            events += [(number, Grasp.GRASPED, 1, ''), (number, Grasp.RELEASED, 1, reason)]
+            self.assertEqual(told(), events)
+        self.assertEqual(self.reload(dict(PINCERS, second_jaw=['lowr'])).message,
+                         "~tools[0]/second_jaw is '{lowr}'; 'lowr' is no link of the tool; nearest is 'lower', legal are "
+                         'upper, lower')
 
     def test_what_is_illegal_changes_nothing(self):
         """Subscriptions are the last thing that can fail, and must not leave half of the new list."""

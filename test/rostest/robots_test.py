@@ -1,12 +1,13 @@
 #!/usr/bin/python3
-"""The grasper of the examples touches the liver with both jaws. The planner of plan.launch takes it to the liver's
+"""The grasper of the examples lifts a fold of tissue by what the node says. The planner of plan.launch takes it to the liver's
 hilum: on its way it touches nothing, in no step of the node and at no pose of TF. The straight way would have touched
 the liver."""
 
 import sys
 
 from geometry_msgs.msg import Point, Pose, Quaternion
-from organ_collision.msg import ContactArray, LinkMotion
+import numpy as np
+from organ_collision.msg import ContactArray, Grasp, LinkMotion, OrganMesh, OrganVertices
 from organ_collision.srv import QueryCollisionBatch, QueryCollisionBatchRequest
 import rospy
 import rostest
@@ -16,7 +17,7 @@ import tf2_ros
 
 from support import scenes
 from support.launch_case import LaunchCase
-from support.node_client import ContactLog, shaft, wait_until
+from support.node_client import ContactLog, Log, shaft, wait_until
 
 LINKS = ['grasper_shaft', 'grasper_wrist', 'grasper_left_jaw', 'grasper_right_jaw']
 SHAFT_RADIUS = 0.0025
@@ -31,6 +32,7 @@ class RobotLog:
 
     def __init__(self):
         self.states = []
+        self.stamps = set()  # for which TF has the wrist, without interpolation
         self.transforms = tf2_ros.Buffer(rospy.Duration(1000.0))
         self.subscribers = [
             rospy.Subscriber('/tf', TFMessage, self._add, queue_size=10000),
@@ -42,6 +44,8 @@ class RobotLog:
         add = self.transforms.set_transform_static if resting else self.transforms.set_transform
         for transform in message.transforms:
             add(transform, 'test')
+            if transform.child_frame_id == 'grasper_wrist':
+                self.stamps.add(transform.header.stamp)
 
     def close(self):
         for subscriber in self.subscribers:
@@ -51,9 +55,9 @@ class RobotLog:
         """Whether it knows where all links were in the frame of the liver."""
         return all(self.transforms.can_transform('liver', link, stamp) for link in LINKS for stamp in stamps)
 
-    def pose(self, frame, stamp):
-        """Where the frame was in that of the liver."""
-        transform = self.transforms.lookup_transform('liver', frame, stamp).transform
+    def pose(self, frame, stamp, organ='liver'):
+        """Where the frame was in that of the organ."""
+        transform = self.transforms.lookup_transform(organ, frame, stamp).transform
         r, t = transform.rotation, transform.translation
         return scenes.Pose((r.x, r.y, r.z, r.w), (t.x, t.y, t.z))
 
@@ -64,18 +68,44 @@ class RobotsTest(LaunchCase):
         self.addCleanup(self.robot.close)
         self.addCleanup(self.log.subscriber.unregister)
 
-    def test_both_jaws_touch(self):
+    def test_the_grasper_lifts_a_fold(self):
+        """While it is grasped, the vertices of the faces that the node named stay between the jaws."""
         rospy.set_param('/organ_collision/tf_timeout_sec', 20.0)  # On a busy machine, transforms are late.
         self.addCleanup(rospy.delete_param, '/organ_collision/tf_timeout_sec')
+        grasps, meshes, shapes = (Log('/organ_collision/' + topic, kind) for topic, kind in (
+            ('grasps', Grasp), ('organ_mesh', OrganMesh), ('organ_vertices', OrganVertices)))
         with self.launched('examples/grasper.launch'):
-            wait_until(lambda: {answer.links[c.link] for answer in self.log.select(lambda answer: answer.contacts)
-                                for c in answer.contacts} >= set(LINKS[2:]), 'contacts of both jaws', LONG)
+            wait_until(lambda: len(grasps.messages) > 1, 'a grasp and its end', LONG)
             self.check_robot('urdf/grasper.urdf')
+        grasped, released = grasps.messages[:2]
+        self.assertEqual([(g.event, g.organ, g.tool, g.grasp, g.reason) for g in (grasped, released)],
+                         [(event, 'fold', 'grasper', 1, '') for event in (Grasp.GRASPED, Grasp.RELEASED)])
+        self.assertTrue(0.003 < grasped.thickness < 0.0055, grasped)  # The fold is 4.8 mm thick.
+        self.assert_held(grasped, released, meshes.messages[0], shapes.messages)
         answers = self.log.messages
         self.assertEqual({(answer.tool, answer.organ, *answer.links) for answer in answers},
-                         {('grasper', 'liver', *LINKS)})
+                         {('grasper', 'fold', *LINKS)})
         first = next(i for i, answer in enumerate(answers) if answer.status == ContactArray.OK)
         self.assertEqual([answer.message for answer in answers[first:] if answer.status], [])
+
+    def assert_held(self, grasped, released, mesh, shapes):
+        faces = np.array(mesh.triangles).reshape(-1, 3)
+        held = np.unique(faces[list(grasped.faces_first + grasped.faces_second)])
+        rest, places, heights = np.array(mesh.vertices).reshape(-1, 3), [], []
+        for shape in shapes:
+            stamp, vertices = shape.header.stamp, np.array(shape.vertices).reshape(-1, 3)
+            is_within = grasped.header.stamp < stamp < released.header.stamp
+            # Between the grasp and the message about it, the tissue rests.
+            if is_within and np.any(vertices[held] != rest[held]) and stamp in self.robot.stamps:
+                wrist = self.robot.pose('grasper_wrist', stamp, organ='fold')
+                places.append([wrist.inverse().apply(v) for v in vertices[held]])
+                heights.append(np.mean((vertices - rest)[held, 2]))
+        places = np.array(places)
+        self.assertGreater(len(places), 20)
+        self.assertLess(np.abs(places - places[0]).max(), 1e-6)
+        self.assertLess(np.abs(places[0, :, 0]).max(), 0.005)
+        self.assertTrue(np.all((places[0, :, 2] > 0.009) & (places[0, :, 2] < TIP[2] + 0.002)), places[0])
+        self.assertAlmostEqual(max(heights), 0.012, delta=0.001)
 
     def has_left(self):
         states = self.robot.states

@@ -14,6 +14,7 @@ inline constexpr char kOrganVertices[] = "organ_vertices";
 inline constexpr char kContacts[] = "contacts";
 inline constexpr char kMarkers[] = "markers";
 inline constexpr char kTouches[] = "touches";
+inline constexpr char kGrasps[] = "grasps";
 ///@}
 
 ///@{
@@ -42,6 +43,8 @@ inline constexpr char kTipPoseTopic[] = "tip_pose_topic";
 inline constexpr char kBasePoseTopic[] = "base_pose_topic";
 inline constexpr char kRadius[] = "radius";
 inline constexpr char kLinks[] = "links";
+inline constexpr char kFirstJaw[] = "first_jaw";
+inline constexpr char kSecondJaw[] = "second_jaw";
 inline constexpr char kRobotDescription[] = "robot_description";
 inline constexpr char kUrdf[] = "urdf";
 inline constexpr char kTfPrefix[] = "tf_prefix";

@@ -2,8 +2,10 @@
 
 #include <ros/names.h>
 
+#include <algorithm>
 #include <initializer_list>
 
+#include "common/messages/text.hpp"
 #include "organ_collision/ros/names.hpp"
 
 namespace organ_collision {
@@ -66,6 +68,29 @@ void parse_shaft(const ParameterGroup& tool, ToolParameters& parsed) {
   parsed.trocar_offset = offset(tool, names::kTrocarOffset);
 }
 
+bool is_among(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+void parse_jaws(const ParameterGroup& tool, ToolParameters& parsed) {
+  if (!tool.has(names::kFirstJaw) && !tool.has(names::kSecondJaw)) return;
+  const std::array<const char*, 2> keys = {names::kFirstJaw, names::kSecondJaw};
+  for (std::size_t jaw = 0; jaw < keys.size(); ++jaw) {
+    parsed.jaws[jaw] = tool.texts(keys[jaw]);
+    for (const std::string& link : parsed.jaws[jaw]) {
+      tool.check_name(keys[jaw], link);
+      if (!is_among(parsed.links, link)) {
+        tool.refuse(keys[jaw], "'" + link + "' is no link of the tool; nearest is '" +
+                                   nearest_name(link, parsed.links) + "', legal are " +
+                                   listed(parsed.links));
+      }
+      if (jaw == 1 && is_among(parsed.jaws[0], link)) {
+        tool.refuse(keys[jaw], "'" + link + "' is in first_jaw, too; a link belongs to one jaw");
+      }
+    }
+  }
+}
+
 void parse_links(const ParameterGroup& tool, ToolParameters& parsed) {
   parsed.links = tool.texts(names::kLinks);
   for (const std::string& link : parsed.links) tool.check_name(names::kLinks, link);
@@ -78,6 +103,7 @@ void parse_links(const ParameterGroup& tool, ToolParameters& parsed) {
     parsed.urdf = tool.text(names::kUrdf);
   }
   if (tool.has(names::kTfPrefix)) parsed.tf_prefix = tf_prefix(tool);
+  parse_jaws(tool, parsed);
 }
 
 void parse_clearance(const ParameterGroup& tool, ToolParameters& parsed) {
@@ -120,7 +146,9 @@ ToolParameters parse_tool(const ParameterGroup& tool) {
   if (has_links) {
     parse_links(tool, parsed);
   } else {
-    refuse_any(tool, {names::kRobotDescription, names::kUrdf, names::kTfPrefix},
+    refuse_any(tool,
+               {names::kRobotDescription, names::kUrdf, names::kTfPrefix, names::kFirstJaw,
+                names::kSecondJaw},
                "goes with links, which are missing");
   }
   if (has_shaft) {
@@ -175,6 +203,9 @@ const std::vector<HelpEntry>& tool_keys() {
       {names::kBasePoseTopic, "with tip_pose_topic; none",
        "the topic of the poses of the frame in which these poses are given, instead of TF"},
       {names::kLinks, "links; required", "the names of links of the robot's URDF, each once"},
+      {names::kFirstJaw, "links; none",
+       "those of the links that are one of two jaws: the topic grasps tells what the jaws grasp"},
+      {names::kSecondJaw, "with first_jaw; none", "those of the links that are the other jaw"},
       {names::kRobotDescription, "links; robot_description",
        "the parameter that has the URDF, in the node's namespace or above it"},
       {names::kUrdf, "links; none", "instead of robot_description: the URDF's file, or its URL"},

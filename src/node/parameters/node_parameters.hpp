@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
 #include "common/messages/conversions.hpp"
 #include "common/parameters/parameter_table.hpp"
@@ -20,9 +21,10 @@ struct ToolParameters {
   std::string tip_pose_topic = {};      ///< topic of the tip_frame's poses; empty: they are on TF
   std::string base_pose_topic = {};     ///< topic of the poses of the tip poses' frame; or empty
   std::vector<std::string> links = {};  ///< links of the robot's URDF, each once; empty: no links
-  std::string robot_description = {};   ///< parameter that has the URDF, if `urdf` is empty
-  std::string urdf = {};                ///< file or URL of the URDF, or empty
-  std::string tf_prefix = {};           ///< TF frames of links are PREFIX/LINK; empty: LINK
+  std::array<std::vector<std::string>, 2> jaws = {};  ///< links of each jaw; empty: no grasping
+  std::string robot_description = {};  ///< parameter that has the URDF, if `urdf` is empty
+  std::string urdf = {};               ///< file or URL of the URDF, or empty
+  std::string tf_prefix = {};          ///< TF frames of links are PREFIX/LINK; empty: LINK
   double margin = 0.0;  ///< [m] steps measure the clearance up to this distance; 0: they do not
   int max_near = 0;     ///< steps list at most this many near faces
   ProxyFreedom freedom = ProxyFreedom::kFree;  ///< freedom of a haptic proxy; steps do not use it

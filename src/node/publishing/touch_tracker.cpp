@@ -1,7 +1,12 @@
 #include "touch_tracker.hpp"
 
+#include <tf2_eigen/tf2_eigen.h>
+
 #include <algorithm>
 #include <tuple>
+
+#include "common/messages/conversions.hpp"
+#include "query/grasp.hpp"
 
 namespace organ_collision {
 namespace {
@@ -32,9 +37,31 @@ bool began_after(const Contact& a, const Contact& b) {
   return std::tie(b.since, b.depth) < std::tie(a.since, a.depth);
 }
 
+/// What a jaw touches at the end of a step.
+struct TouchedByJaw {
+  std::vector<JawContact> contacts;
+  std::vector<std::uint32_t> faces;  ///< each once, ascending
+};
+
+TouchedByJaw touched_by(const std::vector<std::string>& jaw, const ContactArray& answer) {
+  std::vector<bool> is_jaw;
+  for (const std::string& link : answer.links) {
+    is_jaw.push_back(std::find(jaw.begin(), jaw.end(), link) != jaw.end());
+  }
+  TouchedByJaw touched;
+  for (const Contact& contact : answer.contacts) {  // They are sorted by face.
+    if (!contact.touching || contact.link < 0) continue;
+    if (!is_jaw[static_cast<std::size_t>(contact.link)]) continue;
+    touched.contacts.push_back({to_eigen(contact.on_organ), to_eigen(contact.normal)});
+    const bool is_known = !touched.faces.empty() && touched.faces.back() == contact.face;
+    if (!is_known) touched.faces.push_back(contact.face);
+  }
+  return touched;
+}
+
 }  // namespace
 
-void TouchTracker::follow(const ContactArray& answer, Time now) {
+void TouchTracker::follow(const ContactArray& answer, Time now, const Jaws& jaws) {
   const OrganAndTool key{answer.organ, answer.tool};
   if (answer.status != ContactArray::OK) {
     if (const auto known = pairs_.find(key); known != pairs_.end()) fail(known->second, now);
@@ -43,6 +70,7 @@ void TouchTracker::follow(const ContactArray& answer, Time now) {
   Pair& pair = pairs_[key];
   pair.failing.reset();
   pair.last = answer.header.stamp;
+  if (!jaws[0].empty()) follow_grasp(answer, jaws, pair);
   const std::vector<Contact>& contacts = answer.contacts;
   if (!pair.is_touched && contacts.empty()) return;
   if (!pair.is_touched) begin(answer, pair);
@@ -87,17 +115,51 @@ void TouchTracker::begin(const ContactArray& answer, Pair& pair) {
 }
 
 void TouchTracker::end(Pair& pair, ros::Time stamp, const std::string& reason) {
+  if (pair.grasp) release(pair, reason);
   TouchEvent event = pair.place;
   event.event = TouchEvent::END;
   event.touch = pair.count;
   event.header.stamp = stamp;
-  // The difference of extreme stamps does not fit ros::Duration.
-  event.duration_sec = std::max(0.0, stamp.toSec() - pair.began.toSec());
+  event.duration_sec = std::max(0.0, seconds_between(pair.began, stamp));
   event.deepest = pair.deepest;
   event.faces = static_cast<std::uint32_t>(pair.earlier_faces + pair.faces.size());
   event.reason = reason;
   pair.is_touched = false;
   publish_(event);
+}
+
+void TouchTracker::follow_grasp(const ContactArray& answer, const Jaws& jaws, Pair& pair) {
+  TouchedByJaw first = touched_by(jaws[0], answer), second = touched_by(jaws[1], answer);
+  const bool goes_on = pair.grasp.has_value();
+  const auto found = grasped_pair(first.contacts, second.contacts, goes_on);
+  if (!found && !goes_on) return;
+  if (!goes_on) pair.grasp.emplace();
+  Grasp& grasp = *pair.grasp;
+  grasp.header = answer.header;
+  grasp.topology = answer.topology;
+  grasp.faces_first = std::move(first.faces);
+  grasp.faces_second = std::move(second.faces);
+  if (!found) return release(pair, {});  // The message has the last pair that opposed.
+  grasp.on_first = tf2::toMsg(first.contacts[found->first].on_organ);
+  grasp.on_second = tf2::toMsg(second.contacts[found->second].on_organ);
+  grasp.thickness = found->distance;
+  if (goes_on) return;
+  grasp.event = Grasp::GRASPED;
+  grasp.organ = answer.organ;
+  grasp.tool = answer.tool;
+  grasp.grasp = ++pair.grasps;
+  pair.grasped = answer.header.stamp;
+  publish_grasp_(grasp);
+}
+
+/// The grasp ends with the stamp of the last answer that was OK.
+void TouchTracker::release(Pair& pair, const std::string& reason) {
+  Grasp& grasp = *pair.grasp;
+  grasp.event = Grasp::RELEASED;
+  grasp.duration_sec = std::max(0.0, seconds_between(pair.grasped, pair.last));
+  grasp.reason = reason;
+  publish_grasp_(grasp);
+  pair.grasp.reset();
 }
 
 void TouchTracker::end_all(const std::string& reason) {

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <organ_collision/ContactArray.h>
+#include <organ_collision/Grasp.h>
 #include <organ_collision/TouchEvent.h>
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -12,27 +14,33 @@
 #include <string>
 #include <unordered_set>
 #include <utility>
+#include <vector>
 
 namespace organ_collision {
 
-/// Finds in the answers of the steps when each tool begins to touch each organ, and when it ceases.
+/// Finds in the answers of the steps when each tool begins to touch each organ, and when it ceases;
+/// and when its jaws grasp the organ, and let it go.
 ///
 /// A touch begins with the first contact while nothing is touched. It ends with the first answer at
 /// whose end no contact is `touching`. So a tool that touches and leaves within one step begins and
-/// ends a touch. Answers that are not OK change nothing, unless they fail for longer than 1 s.
+/// ends a touch. Answers that are not OK change nothing, unless they fail for longer than 1 s. Who
+/// grasps also touches, so what ends a touch also ends a grasp.
 class TouchTracker {
  public:
   using Time = std::chrono::steady_clock::time_point;        ///< of the node's own clock
   using OrganAndTool = std::pair<std::string, std::string>;  ///< their names
-  using Publish = std::function<void(const TouchEvent&)>;
+  using Jaws = std::array<std::vector<std::string>, 2>;      ///< ToolParameters::jaws
+  template <typename Event>
+  using Publish = std::function<void(const Event&)>;
 
-  /// `publish` gets the events, in order.
-  explicit TouchTracker(Publish publish) : publish_(std::move(publish)) {}
+  /// These get the events, in order.
+  TouchTracker(Publish<TouchEvent> publish, Publish<Grasp> publish_grasp)
+      : publish_(std::move(publish)), publish_grasp_(std::move(publish_grasp)) {}
 
   /// Takes the next answer about an organ and a tool, which is given at `now`. How long answers
   /// fail is measured with `now`, because the stamp of a refused message may be any number.
-  void follow(const ContactArray& answer, Time now);
-  /// Ends the touches of all tools and organs, with the stamp of their last answer.
+  void follow(const ContactArray& answer, Time now, const Jaws& jaws = {});
+  /// Ends the touches and grasps of all tools and organs, with the stamp of their last answer.
   void end_all(const std::string& reason);
   // These end touches, too, and forget the pairs of organ and tool.
   void forget_organ(const std::string& organ, const std::string& reason);
@@ -51,6 +59,10 @@ class TouchTracker {
     std::uint32_t topology = 0;
     std::unordered_set<std::uint32_t> faces;  ///< touched faces of the present triangles
     std::size_t earlier_faces = 0;            ///< number of touched faces of earlier triangles
+
+    std::uint32_t grasps = 0;    ///< number of grasps that have begun
+    ros::Time grasped;           ///< when the grasp began
+    std::optional<Grasp> grasp;  ///< how the last answer that was OK found it; none: no grasp
   };
 
   template <typename IsGone>
@@ -58,8 +70,11 @@ class TouchTracker {
   void fail(Pair& pair, Time now);
   void begin(const ContactArray& answer, Pair& pair);
   void end(Pair& pair, ros::Time stamp, const std::string& reason);
+  void follow_grasp(const ContactArray& answer, const Jaws& jaws, Pair& pair);
+  void release(Pair& pair, const std::string& reason);
 
-  Publish publish_;
+  Publish<TouchEvent> publish_;
+  Publish<Grasp> publish_grasp_;
   std::map<OrganAndTool, Pair> pairs_;
 };
 

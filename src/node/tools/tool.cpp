@@ -89,9 +89,9 @@ bool is_same(const Tool& a, const Tool& b) {
   const auto members = [](const Tool& tool) {
     const ToolParameters& p = tool.parameters;
     return std::tie(p.name, p.trocar_frame, p.tip_frame, p.radius, p.tip_pose_topic,
-                    p.base_pose_topic, p.links, p.robot_description, p.urdf, p.tf_prefix, p.margin,
-                    p.max_near, p.freedom, p.lockstep, p.trocar_offset, p.tip_offset, tool.fault,
-                    tool.fingerprint);
+                    p.base_pose_topic, p.links, p.jaws, p.robot_description, p.urdf, p.tf_prefix,
+                    p.margin, p.max_near, p.freedom, p.lockstep, p.trocar_offset, p.tip_offset,
+                    tool.fault, tool.fingerprint);
   };
   return members(a) == members(b);
 }
@@ -203,6 +203,8 @@ ToolInfo info_of(const Tool& tool) {
   info.tip_offset = to_vector(parameters.tip_offset);
   info.pose_topic = parameters.tip_pose_topic;
   info.links = parameters.links;
+  info.first_jaw = parameters.jaws[0];
+  info.second_jaw = parameters.jaws[1];
   info.radius = parameters.radius;
   info.margin = parameters.margin;
   info.max_near = static_cast<std::uint32_t>(parameters.max_near);

@@ -169,6 +169,13 @@ TEST(ToolParameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
       {shaft, "links", list_of({""}), {"not empty"}},
       {shaft, "links", list_of({"a", 1}), {"'{a,1}'", "not empty, of texts"}},
       {links, "links", list_of({too_long}), {"at most 256 bytes"}},
+      {links, "first_jaw", "jaw", {"'jaw'", "list"}},
+      {links,
+       "first_jaw",
+       list_of({"jaws"}),
+       {"~tools[0]/first_jaw is '{jaws}'", "'jaws' is no link",
+        "nearest is 'jaw', legal are jaw, other_jaw"}},
+      {shaft, "second_jaw", list_of({"jaw"}), {"goes with links"}},
       {links, "robot_description", "a b", {"'a b'"}},
       {links, "urdf", "", {"not empty"}},
       {links, "tf_prefix", "left/", {"'left/'", "slash"}},
@@ -199,6 +206,13 @@ TEST(ToolParameters, WhatDoesNotGoTogetherIsNamed) {
   two["urdf"] = "/hook.urdf";
   two["robot_description"] = "robot_description";
   expect_words(tool_refusal(two), {"~tools[0]/robot_description", "beside urdf"});
+  XmlRpcValue jaws = links();
+  jaws["second_jaw"] = list_of({"other_jaw", "jaw"});
+  expect_words(tool_refusal(jaws), {"~tools[0]/first_jaw is missing; must be a list"});
+  jaws["first_jaw"] = list_of({"jaw"});
+  EXPECT_EQ(tool_refusal(jaws),
+            "~tools[0]/second_jaw is '{other_jaw,jaw}'; 'jaw' is in first_jaw, too; a link belongs "
+            "to one jaw");
 }
 
 TEST(ToolParameters, TheTipOfATrackedToolIsAPointOfItsMarker) {
@@ -254,10 +268,13 @@ TEST(ToolParameters, AreAShaftOrLinksOrBoth) {
   EXPECT_FALSE(of_links.has_tip_of_links());
 
   tool["links"] = links()["links"];
+  tool["first_jaw"] = list_of({"other_jaw"});
+  tool["second_jaw"] = list_of({"jaw"});
   tool["urdf"] = "package://hooks/hook.urdf";
   const ToolParameters both = parsed(tool);
   EXPECT_TRUE(both.has_shaft());
   EXPECT_EQ(both.links.size(), 2u);
+  EXPECT_EQ(both.jaws, (std::array<std::vector<std::string>, 2>{{{"other_jaw"}, {"jaw"}}}));
   EXPECT_EQ(both.urdf, "package://hooks/hook.urdf");
   EXPECT_EQ(both.robot_description, "");
 }

@@ -220,6 +220,7 @@ TEST(ToolChanges, EachParameterCounts) {
       [](Tool& tool) { tool.parameters.tip_pose_topic = "measured_cp"; },
       [](Tool& tool) { tool.parameters.base_pose_topic = "base"; },
       [](Tool& tool) { tool.parameters.links.pop_back(); },
+      [](Tool& tool) { tool.parameters.jaws[1] = {"jaw"}; },
       [](Tool& tool) { tool.parameters.robot_description = "robot"; },
       [](Tool& tool) { tool.parameters.urdf = "robot.urdf"; },
       [](Tool& tool) { tool.parameters.tf_prefix = "leg"; },
