@@ -18,7 +18,7 @@ import style
 
 LIFTED = 0.0832  # [m] The insertion of the shaft where the grasper is highest.
 SHOWN = {'surface/fold', 'tools', 'touched'}  # namespaces of markers
-CAMERA = Camera((-62, 20), (0.012, 0.0, 0.018), 0.1, (1500, 820))
+CAMERA = Camera((-60, 14), (0.0, 0.0, 0.018), 0.13, (1500, 900))
 
 
 class Robot:
@@ -46,7 +46,7 @@ def draw(picture, grasp, lift):
     ends = [np.array([p.x, p.y, p.z + lift]) for p in (grasp.on_first, grasp.on_second)]
     middle = np.array(CAMERA.pixel(0.5 * sum(ends)))
     axes.annotate('the jaws hold %.1f mm of tissue:\nthe message has its faces on both sides' % (1e3 * grasp.thickness),
-                  middle, middle + [300, -120], color=style.TEXT, fontsize=11, va='center',
+                  middle, middle + [330, 60], color=style.TEXT, fontsize=11, va='center',
                   arrowprops={'arrowstyle': '-', 'color': style.TEXT, 'lw': 0.8})
     figure.tight_layout()
     style.save_picture(figure, os.path.join(HERE, 'grasp.png'))

@@ -103,8 +103,9 @@ Tissue open_sheet(double) {
   return tissue;
 }
 
+/// Its slopes have up to 21 degrees, so that no bump ends a grasp of jaws that are not oblique.
 Tissue bumpy_slab(double thickness) {
-  return layers(thickness, -0.02, 0.02, 0.1 * std::min(thickness, 0.003), 26);
+  return layers(thickness, -0.02, 0.02, 0.06 * std::min(thickness, 0.003), 26);
 }
 
 /// The top of an organ like an egg.
