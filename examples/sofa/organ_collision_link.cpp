@@ -48,9 +48,16 @@ class OrganCollisionLink : public sofa::core::objectmodel::BaseComponent {
       msg_error() << "unit is " << unit.getValue() << "; must be above 0";
       return;
     }
-    for (const BaseMeshTopology* organ : organs) {
-      if (state_of(*organ)) continue;
-      msg_error() << "the organ '" << organ->getName() << "' has no MechanicalObject of Vec3";
+    for (unsigned i = 0; i < organs.size(); ++i) {
+      if (organs[i] && state_of(*organs[i])) continue;
+      msg_error() << "organs: " << organs.getLinkedPath(i)
+                  << " is no topology with a MechanicalObject of Vec3";
+      return;
+    }
+    for (unsigned i = 0; i < tools.size(); ++i) {
+      if (tools[i] && tools[i]->getSize() == 1) continue;
+      msg_error() << "tools: " << tools.getLinkedPath(i)
+                  << " is no MechanicalObject of Rigid3 with one body";
       return;
     }
     try {
