@@ -73,7 +73,8 @@ class Hand:
         self.lock = threading.RLock()
         self.transforms = tf2_ros.Buffer()
         self.listener = tf2_ros.TransformListener(self.transforms)
-        self.force = rospy.Publisher('servo_cf', WrenchStamped, queue_size=1, tcp_nodelay=True)
+        # Each step of letting go leaves, also where the socket is slow: the force must not jump.
+        self.force = rospy.Publisher('servo_cf', WrenchStamped, queue_size=len(LET_GO), tcp_nodelay=True)
         self.pose = rospy.Publisher('pose', PoseStamped, queue_size=100, tcp_nodelay=True)
         # The body/servo_cf of a dVRK is in the axes of the base if it was told so.
         self.absolute = rospy.Publisher('set_cf_orientation_absolute', Bool, queue_size=1, latch=True)
