@@ -10,16 +10,14 @@ from types import SimpleNamespace
 import numpy as np
 from PyKDL import Frame, Rotation, Vector
 
-import organ_collision.msg
-from organ_collision.msg import Clearance, ContactArray, ProxyState, TouchEvent
+from organ_collision.msg import Clearance, ContactArray, Grasp, ProxyState, TouchEvent
 from organ_collision.recordings import decode, seconds
 
 GAP = 1.0  # [s] Without an answer OK for longer, it is not known what happened. A longer step back of stamps is a jump.
 IDLE_SPEED, IDLE_TIME = 0.005, 0.5         # [m/s], [s] A tip that is slower for longer is idle.
 RATE, THINNED, PATH_GAP = 100, 0.005, 0.2  # [Hz], [s], [s] of paths
 HAND = 'hand of haptic_proxy'              # a source of a tip's poses
-KINDS = {'organ_collision/' + name: getattr(organ_collision.msg, name)._md5sum
-         for name in ('ContactArray', 'TouchEvent', 'ProxyState', 'Grasp') if hasattr(organ_collision.msg, name)}
+KINDS = {kind._type: kind._md5sum for kind in (ContactArray, Grasp, ProxyState, TouchEvent)}
 
 
 class TrialError(RuntimeError):

@@ -80,9 +80,8 @@ void parse_jaws(const ParameterGroup& tool, ToolParameters& parsed) {
     for (const std::string& link : parsed.jaws[jaw]) {
       tool.check_name(keys[jaw], link);
       if (!is_among(parsed.links, link)) {
-        tool.refuse(keys[jaw], "'" + link + "' is no link of the tool; nearest is '" +
-                                   nearest_name(link, parsed.links) + "', legal are " +
-                                   listed(parsed.links));
+        tool.refuse(keys[jaw],
+                    "'" + link + "' is no link of the tool; " + suggestion(link, parsed.links));
       }
       if (jaw == 1 && is_among(parsed.jaws[0], link)) {
         tool.refuse(keys[jaw], "'" + link + "' is in first_jaw, too; a link belongs to one jaw");
