@@ -56,6 +56,7 @@ SHUT_DOWN = 30.0  # [s] at most, from Ctrl-C to the end of the node
 PAUSE = (1.0, 3.0)  # [s] between two disturbances
 MEMORY_PERIOD = 0.25  # [s]
 BATCH = 50  # motions
+LOST_CONNECTION = 'unable to receive data from sender'  # what rospy says of it
 SILENT = {CONTACTS: ContactArray._type, '/organ_collision/markers': MarkerArray._type}
 
 
@@ -199,6 +200,18 @@ class Users:
             except (rospy.ServiceException, rospy.ROSException) as error:
                 self.findings.add('%s: %s' % (work.__name__, error))
 
+    def call(self, name, kind, *request):
+        """The answer of a service of the node. A connection can end without an answer: on a busy machine, this was seen
+        once in some 10^5 calls, and only roscpp closes connections. As any user must, this one repeats such a call,
+        but only once."""
+        try:
+            return rospy.ServiceProxy(NODE + name, kind)(*request)
+        except rospy.ServiceException as error:
+            if LOST_CONNECTION not in str(error):
+                raise
+            self.counts['repeated calls'] += 1
+            return rospy.ServiceProxy(NODE + name, kind)(*request)
+
     @staticmethod
     def motion(rng):
         """A shaft that goes through the sheet."""
@@ -225,12 +238,11 @@ class Users:
         tool = rng.choice(['', 'probe', 'needle', 'jaw', 'stylus', 'no_such_tool'])
         given = {} if tool else {'motion': self.motion(rng)}
         request = self.request(QueryCollision, rng, tool=tool, placement=rng.random() < 0.2, **given)
-        self.check(rospy.ServiceProxy(NODE + '/query', QueryCollision)(request).result)
+        self.check(self.call('/query', QueryCollision, request).result)
 
     def ask_batch(self, rng):
         motions = [self.motion(rng) for _ in range(BATCH)]
-        answer = rospy.ServiceProxy(NODE + '/query_batch', QueryCollisionBatch)(
-            self.request(QueryCollisionBatch, rng, motions=motions))
+        answer = self.call('/query_batch', QueryCollisionBatch, self.request(QueryCollisionBatch, rng, motions=motions))
         if len(answer.results) != (BATCH if answer.status == ContactArray.OK else 0):
             self.findings.add('a batch with status %d has %d results' % (answer.status, len(answer.results)))
         for result in answer.results:
@@ -240,19 +252,19 @@ class Users:
         """Tools are reloaded in another order, which changes none of them."""
         kind = rng.randrange(4)
         if kind == 0:
-            rospy.ServiceProxy(NODE + '/reset', Empty)()
+            self.call('/reset', Empty)
         elif kind == 1:
             rospy.set_param(NODE + '/tools', rng.sample(TOOLS, len(TOOLS)))
-            answer = rospy.ServiceProxy(NODE + '/reload_tools', Trigger)()
+            answer = self.call('/reload_tools', Trigger)
             if not answer.success or 'changed: ' in answer.message.replace('unchanged: ', ''):
                 self.findings.add('reload_tools: ' + answer.message)
         elif kind == 2:
             request = ReconfigureRequest()
             request.config.bools = [BoolParameter(name, rng.random() < 0.5)
                                     for name in ('publish_regions', 'publish_placement')]
-            rospy.ServiceProxy(NODE + '/set_parameters', Reconfigure)(request)
+            self.call('/set_parameters', Reconfigure, request)
         else:
-            rospy.ServiceProxy(NODE + '/list_organs', ListOrgans)()
+            self.call('/list_organs', ListOrgans)
 
     def look(self, rng):
         """Subscribes for a moment."""
