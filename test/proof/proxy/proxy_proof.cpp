@@ -25,7 +25,8 @@ constexpr int kMostReports = 5;  // in an episode
 struct Options {
   std::string scene;  // empty: all
   long ticks, seed;
-  long episode;  // only this one; negative: all
+  long episode;      // only this one; negative: all
+  double clearance;  // [m]
 };
 
 /// std::nullopt: they are illegal, and the usage was printed.
@@ -42,13 +43,15 @@ std::optional<Options> read(int argc, char** argv) {
       ("of each scene, in episodes of " + std::to_string(kEpisodeTicks)).c_str());
   add("seed", po::value(&options.seed)->default_value(1), "");
   add("episode", po::value(&options.episode)->default_value(-1), "only this one, from 0");
+  add("clearance", po::value(&options.clearance)->default_value(1e-4), "in metres");
   try {
     po::variables_map given;
     po::store(po::parse_command_line(argc, argv, legal), given);
     po::notify(given);
     const bool is_scene = options.scene.empty() ||
                           std::find(kinds.begin(), kinds.end(), options.scene) != kinds.end();
-    if (is_scene && std::min(options.ticks, options.seed) > 0) return options;
+    const bool is_legal = std::min(options.ticks, options.seed) > 0 && options.clearance > 0.0;
+    if (is_scene && is_legal) return options;
   } catch (const po::error& error) {
     std::cerr << error.what() << '\n';
   }
@@ -71,10 +74,11 @@ double percent(long part, long all) {
 
 void print_proxy_head(std::ostream& out) {
   out << "| scene | ticks | touching | squeezed | jumps | overrun | no answer | too near | through "
-         "| inside | held | inconsistent | least distance [mm] | where squeezed [mm] | median [us] "
-         "| 99 % "
-         "| 99.9 % | most "
-         "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+         "| inside | held | inconsistent | at the clearance | least distance [mm] | where squeezed "
+         "[mm] "
+         "| median [us] | 99 % | 99.9 % | most "
+         "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---"
+         "|---|---|---|---|---|---|\n";
 }
 
 void print(const std::string& name, ProxyTally tally, std::ostream& out) {
@@ -85,6 +89,7 @@ void print(const std::string& name, ProxyTally tally, std::ostream& out) {
                            tally.inside, tally.held, tally.inconsistent}) {
     out << " | " << count;
   }
+  out << std::setprecision(2) << " | " << percent(tally.at_clearance, tally.touching) << " %";
   out << std::setprecision(4) << " | " << 1e3 * tally.least << " | ";
   if (tally.squeezed > 0) out << 1e3 * tally.least_squeezed;
   out << std::setprecision(0);
@@ -103,10 +108,12 @@ double processor_seconds() {
 
 /// Follows the hand of an episode, a random scene with a proxy of its own, for so many ticks.
 /// `report` receives a tick and what went wrong in it.
-ProxyTally follow_hand(const std::string& kind, unsigned long seed, long episode, long ticks,
+ProxyTally follow_hand(const Options& options, const std::string& kind, long episode, long ticks,
                        const std::function<void(long, const std::string&)>& report) {
-  Random random(1000003 * seed + static_cast<unsigned long>(episode));
+  Random random(1000003 * static_cast<unsigned long>(options.seed) +
+                static_cast<unsigned long>(episode));
   ProxyScene scene = make_proxy_scene(kind, random);
+  scene.settings.clearance = options.clearance;
   ScriptedHand hand(scene.hand, random);
   HapticProxy proxy(scene.hand.tool, scene.settings);
   long tick = 0;
@@ -141,8 +148,7 @@ ProxyTally prove(const Options& options, const std::string& kind, Progress& prog
       std::cerr << "--scene '" << kind << "' --seed " << options.seed << " --episode " << episode
                 << ": tick " << tick << ": " << what << std::endl;
     };
-    const auto seed = static_cast<unsigned long>(options.seed);
-    all.add(follow_hand(kind, seed, episode, ticks, report));
+    all.add(follow_hand(options, kind, episode, ticks, report));
     progress.show(kind, all.ticks, options.ticks);
     if (options.episode >= 0) break;
   }

@@ -1,6 +1,8 @@
 #include "referee.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -93,6 +95,9 @@ constexpr long kTicksPerSideCheck = 500;  // The exact winding number is slow.
 constexpr long kTicksPerWayCheck = 10;
 constexpr long kMostClearWays = 3;  // in a row
 
+/// [m] A proxy that tissue holds is so near to the place at the clearance.
+double precision(double clearance) { return std::max(1e-6, 0.01 * clearance); }
+
 /// How far a place of the tool is from where the hand has it [m].
 double distance_between(const ProxyTool& tool, const ToolPose& a, const ToolPose& b) {
   double most = 0.0;
@@ -124,6 +129,7 @@ void ProxyTally::add(const ProxyTally& other) {
   inside += other.inside;
   held += other.held;
   inconsistent += other.inconsistent;
+  at_clearance += other.at_clearance;
   least = std::min(least, other.least);
   least_squeezed = std::min(least_squeezed, other.least_squeezed);
   seconds.insert(seconds.end(), other.seconds.begin(), other.seconds.end());
@@ -173,17 +179,20 @@ void Referee::check_values(const ToolPose& hand, const ProxyAnswer& answer) {
   if (trocar > kRounding) blame(tally_.inconsistent, in_mm("the trocar is wrong by", trocar));
 }
 
-void Referee::check_distance(const std::vector<PlacedCore>& tool, const Organ& organ,
-                             ProxyStatus state) {
-  const double distance = organ.oracle.distance(tool, settings_.clearance);
+/// Returns the distance [m]. It is exact up to where the proxy counts as being at the clearance.
+double Referee::check_distance(const std::vector<PlacedCore>& tool, const Organ& organ,
+                               ProxyStatus state) {
+  const double bound = settings_.clearance + 2.0 * precision(settings_.clearance);
+  const double distance = organ.oracle.distance(tool, bound);
   if (state == ProxyStatus::kSqueezed) {
     tally_.least_squeezed = std::min(tally_.least_squeezed, distance);
-    return;
+    return distance;
   }
   tally_.least = std::min(tally_.least, distance);
   if (distance < 0.5 * settings_.clearance - kRounding) {
     blame(tally_.near, in_mm("too near:", distance));
   }
+  return distance;
 }
 
 void Referee::check_passage(const std::vector<ShaftAxis>& lines, const Organ& organ) {
@@ -248,16 +257,21 @@ void Referee::check(const ToolPose& hand, bool jumped, const std::vector<ProxyOr
     return;
   }
   check_values(hand, answer);
+  double distance = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < organs.size(); ++i) {
     const ToolPose pose = organs[i].T_organ_proxy * answer.proxy;
     const std::vector<ShaftAxis> lines = skeleton(tool_, pose);
-    check_distance(placed_cores(tool_.radius, tool_.links, pose), organs_[i], answer.state);
+    const std::vector<PlacedCore> cores = placed_cores(tool_.radius, tool_.links, pose);
+    distance = std::min(distance, check_distance(cores, organs_[i], answer.state));
     if (!answer.is_placed_anew && !organs_[i].lines.empty()) check_passage(lines, organs_[i]);
     if (is_closed[i] && (answer.is_placed_anew || tally_.ticks % kTicksPerSideCheck == 0)) {
       check_side(lines, organs_[i]);
     }
     organs_[i].lines = lines;
   }
+  const bool is_precise =
+      std::abs(distance - settings_.clearance) <= precision(settings_.clearance);
+  if (answer.state == ProxyStatus::kTouching && is_precise) ++tally_.at_clearance;
   check_squeeze(hand, organs, answer);
   check_way(hand, organs, answer);
 }

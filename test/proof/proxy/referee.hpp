@@ -24,6 +24,7 @@ struct ProxyTally {
   long inside = 0;        ///< a middle line begins or ends inside a closed organ
   long held = 0;          ///< longer than needed: the straight way to the hand was free for a while
   long inconsistent = 0;  ///< FREE but not at the hand, or values that contradict each other
+  long at_clearance = 0;  ///< TOUCHING, and as far from tissue as the clearance says
   double least = INFINITY;           ///< [m] the smallest distance up to the clearance
   double least_squeezed = INFINITY;  ///< [m] the same, where SQUEEZED
   std::vector<float> seconds;        ///< of processor time that each tick took
@@ -58,7 +59,7 @@ class Referee {
 
   void count_state(bool jumped, const ProxyAnswer& answer);
   void check_values(const ToolPose& hand, const ProxyAnswer& answer);
-  void check_distance(const std::vector<PlacedCore>& tool, const Organ& organ, ProxyStatus state);
+  double check_distance(const std::vector<PlacedCore>& tool, const Organ& organ, ProxyStatus state);
   void check_passage(const std::vector<ShaftAxis>& lines, const Organ& organ);
   void check_squeeze(const ToolPose& hand, const std::vector<ProxyOrgan>& organs,
                      const ProxyAnswer& answer);
