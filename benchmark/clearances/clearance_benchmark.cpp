@@ -66,7 +66,7 @@ struct Run {
   Ticks held, free, anew;
   std::size_t precise = 0;    ///< held ticks whose distance is the clearance, as it should be
   double nearest = INFINITY;  ///< [m]
-  std::size_t most_contacts = 0;
+  std::size_t most_contacts = 0, most_tests = 0;
 };
 
 class Measurement {
@@ -132,6 +132,7 @@ void Measurement::follow(std::size_t tick) {
     Ticks& ticks = answer->is_placed_anew ? run.anew : is_free ? run.free : run.held;
     ticks.add(seconds, query, tick);
     if (answer->state == ProxyStatus::kNoAnswer) continue;
+    run.most_tests = std::max(run.most_tests, answer->tests);
     run.most_contacts = std::max(run.most_contacts, answer->contacts.size());
     const double away = distance(answer->proxy, 1.1 * run.clearance);
     run.nearest = std::min(run.nearest, away / run.clearance);
@@ -152,8 +153,9 @@ void Measurement::print() const {
             << 1e6 * queries_.quantile(0.5) << " us, 99th percentile "
             << 1e6 * queries_.quantile(0.99) << " us\n\n"
             << "| clearance, ticks | count | median, us | 99 % | most | to one swept query: median "
-               "| 99 % | at the clearance | least distance / clearance | most contacts |\n"
-            << "|---|---|---|---|---|---|---|---|---|---|\n";
+               "| 99 % | at the clearance | least distance / clearance | most contacts | most pair "
+               "tests |\n"
+            << "|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const Run& run : runs_) {
     std::ostringstream name;
     name << 1e3 * run.clearance << " mm";
@@ -162,11 +164,11 @@ void Measurement::print() const {
               << 100.0 * static_cast<double>(run.precise) /
                      static_cast<double>(std::max<std::size_t>(run.held.times.count(), 1))
               << " % | " << std::setprecision(3) << run.nearest << std::setprecision(1) << " | "
-              << run.most_contacts << " |\n";
+              << run.most_contacts << " | " << run.most_tests << " |\n";
     bench::print(name.str() + ", free", run.free);
-    std::cout << " | | |\n";
+    std::cout << " | | | |\n";
     bench::print(name.str() + ", placed anew", run.anew);
-    std::cout << " | | |\n";
+    std::cout << " | | | |\n";
   }
   for (const Run& run : runs_) {
     std::vector<std::pair<double, std::size_t>> slowest = run.held.slowest;

@@ -89,8 +89,9 @@ struct ProxyOrgan {
 struct ProxyFace {
   std::size_t organ = 0;  ///< the place of the organ in the list given to follow()
   /// The nearest points of the proxy and a face, in the proxy's frame. `depth` is minus the
-  /// distance, and `fraction` is 0. Faces nearer than twice the clearance are listed, and the
-  /// nearest faces if the proxy is still on its way. Nothing is listed for a needle in tissue.
+  /// distance, and `fraction` is 0. Of each locally convex patch, about as wide as the clearance,
+  /// the nearest face is listed if it is nearer than twice the clearance. If the proxy is still on
+  /// its way, the nearest faces are listed. Nothing is listed for a needle in tissue.
   FaceContact contact;
   /// [m] The force of the proxy on the tissue, divided by the stiffness. It acts at contact.point,
   /// along contact.normal. Not negative.
@@ -134,10 +135,12 @@ struct ProxyAnswer {
   /// [m] The radius of gyration of a free tool. A rotation by an angle counts as a translation by
   /// that angle times the size.
   double size = 0.0;
-  /// The faces near the proxy, and their loads, sorted by organ, then face, then link.
+  /// The faces near the proxy, and their loads, the nearest first.
   std::vector<ProxyFace> contacts;
   /// Where a needle goes through tissue, from entry to tip. Empty unless the needle has pierced.
   std::vector<ProxyCrossing> crossings;
+  /// How many faces were tested one by one against parts of the tool: the work of the tick.
+  std::size_t tests = 0;
 };
 
 /// A virtual tool that follows the hand, but stops at tissue (a god-object: Zilles and Salisbury

@@ -28,15 +28,25 @@ class FaceSearch {
   template <typename Bound, typename Measure>
   std::size_t visit(const OrganMotion& organ, const OrientedBox& box, Bound bound,
                     Measure measure) {
+    return visit(
+        organ, box, bound, [](const Box&) { return false; }, measure);
+  }
+  /// The same, but leaves out the faces in boxes for which skip(box) returns true. The boxes are
+  /// those of groups and blocks, in the organ's frame.
+  template <typename Bound, typename Skip, typename Measure>
+  std::size_t visit(const OrganMotion& organ, const OrientedBox& box, Bound bound, Skip skip,
+                    Measure measure) {
     start(organ, box);
     rank_groups(static_cast<std::uint32_t>(clusters().level_count()) - 1, 0, squared(bound()));
     while (const auto group = pop_nearest(groups_, squared(bound()))) {
+      if (skip(box_around(*group))) continue;
       if (group->level > 0) {
         rank_groups(group->level - 1, group->index * FaceClusters::kGroup, squared(bound()));
         continue;
       }
       rank_blocks(group->index, squared(bound()));
       while (const auto block = pop_nearest(blocks_, squared(bound()))) {
+        if (skip(box_around(block->index))) continue;
         place_vertices(block->index);
         const auto faces = clusters().faces(block->index);
         for (const FaceClusters::Face& face : faces) {
@@ -100,6 +110,10 @@ class FaceSearch {
     return (low.max(-high) - half_size_).max(0.0F).square().sum();
   }
   Box box_around(std::uint32_t block) const;
+  Box box_around(const Ranked& group) const {
+    const auto& after = organ_->after().block_boxes().groups(group.level);
+    return after[group.index].join(organ_->boxes_before().groups(group.level)[group.index]);
+  }
 
   std::optional<OrganMotion> organ_;
   // The search's box [m]. The fourth values are zero.

@@ -73,6 +73,8 @@ class FixedPlane {
     return project_onto(normal_, face.start).low > distance + start_ &&
            project_onto(normal_, face.end).low > distance + end_;
   }
+  /// [m] The greatest support value of the part along the normal during the leg.
+  double support() const { return std::max(start_, end_); }
 
  private:
   Eigen::Vector3d normal_;

@@ -123,6 +123,7 @@ void HapticProxy::State::follow(const ToolPose& hand, const std::vector<ProxyOrg
     tick.place = place;
   }
   tick.motions = match(organs, tick.place.has_value());
+  tissue.start_tick();
   tissue.set_organs(tick.motions);
   mobility->measure(hand);
   tick.answer.proxy = hand;
@@ -137,6 +138,7 @@ void HapticProxy::State::follow(const ToolPose& hand, const std::vector<ProxyOrg
       if (pierced) hold(tick, std::move(*pierced));
     }
   }
+  tick.answer.tests = tissue.tests_made();
   answer = std::move(tick.answer);
   place = std::move(tick.place);
   needle = std::move(tick.needle);
@@ -202,8 +204,7 @@ void HapticProxy::State::move_proxy(Tick& tick) {
   const ToolPose start = now.pose;
   const double reach = 2.0 * std::max(tick.hand_way.longest, last_way);
   const bool was_free = tick.answer.is_placed_anew || answer.state == ProxyStatus::kFree;
-  const bool may_fly = was_free && now.clearance >= settings.clearance;
-  if (!may_fly || !motion.fly(now, hand)) motion.slide(now, hand, reach);
+  if (!was_free || !motion.fly(now, hand)) motion.slide(now, hand, reach);
   if (!tick.answer.is_placed_anew) {
     tick.way = mobility->longest_way(hand, mobility->between(start, now.pose));
   }

@@ -20,15 +20,20 @@ constexpr double kLongestGiveWay = 10.0;
 /// In a hollow organ, a place to start is sought along this many straight lines, at most.
 constexpr std::size_t kLines = 12;
 /// How often a proxy that slides along curved tissue looks for walls, at most.
-constexpr int kMostLooks = 8;
+constexpr int kMostLooks = 6;
 
-// [1] The next three constants are shares of the clearance at rest.
-
-/// A proxy that would slide by less than this has arrived.
-constexpr double kConverged = 0.01;
-/// How far beyond the clearance the proxy looks for walls, at least and at most.
-constexpr double kShortestReach = 1.0;
-constexpr double kLongestReach = 20.0;
+/// A proxy that would slide by less than the larger of these has arrived: a share [1] of the
+/// clearance at rest, and a length [m], of small clearances a hundredth.
+constexpr double kConverged = 0.0025, kSmallestSlide = 1e-6;
+/// [m] How far a proxy slides from one look to the next, at most. It looks at least so far, and at
+/// most so far, beyond its clearance.
+constexpr double kShortestReach = 1e-4, kLongestReach = 2e-3;
+/// [m] The least radius of a patch whose nearest face the answer tells.
+constexpr double kSmallestPatch = 5e-4;
+/// [1] The answer tells of tissue up to this many times the clearance at rest.
+constexpr double kTold = 2.0;
+/// [1] A proxy that hovers looks for the faces that hold it up to this many times its clearance.
+constexpr double kFarthestLook = 21.0;
 
 /// [m] A motion may come nearer to tissue than its start by this allowance for rounding.
 constexpr double kRoundingRoom = 1e-9;
@@ -129,6 +134,7 @@ std::optional<ProxyPlace> ProxyMotion::give_way(const ProxyPlace& start, const T
   for (const Level level : {Level::kSwept, Level::kLeast}) {
     if (level == Level::kSwept && start.clearance < clearance_.least()) continue;
     for (const int pieces : {1, kPieces}) {
+      if (pieces > 1 && tissue_.is_used_up()) continue;
       if (auto place = give_way(start, hand, organs, level, pieces)) {
         tissue_.set_organs(organs);
         return place;
@@ -174,12 +180,17 @@ std::optional<ProxyPlace> ProxyMotion::give_way(const ProxyPlace& start, const T
 std::optional<ProxyPlace> ProxyMotion::give_way(const ProxyPlace& start, const ToolPose& hand,
                                                 Level level) {
   const ToolPose given = mobility_.combine(start.pose, hand);
+  const double growth =
+      level == Level::kSwept ? growth_from(start.clearance) : tissue_.least_growth();
+  if (level == Level::kSwept) {
+    // Most often the tissue stays away. This sweep costs less than one at the whole clearance.
+    tissue_.touch({start.pose, given}, growth, met_, Tissue::Organs::kMove);
+    if (!first_touch(growth)) return ProxyPlace{given, growth};
+  }
   tissue_.touch({start.pose, given}, clearance_.rest, met_, Tissue::Organs::kMove);
   if (met_.empty()) return ProxyPlace{given, clearance_.rest};
   walls_.clear();
   add_walls(given, given, met_);
-  const double growth =
-      level == Level::kSwept ? growth_from(start.clearance) : tissue_.least_growth();
   for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
     solver_.solve(Displacement::Zero(), walls_);
     const ToolPose pose =
@@ -215,65 +226,118 @@ bool ProxyMotion::fly(ProxyPlace& place, const ToolPose& hand, double growth) {
   return !touch;
 }
 
+/// A look at the hand tells most often that the way there is clear.
 bool ProxyMotion::fly(ProxyPlace& place, const ToolPose& hand) {
-  if (!fly(place, hand, clearance_.rest)) return false;
-  find_walls(hand, (1.0 + kShortestReach) * clearance_.rest);
+  ProxyPlace there{hand};
+  const double way = tissue_.farthest_move(place.pose, hand);
+  if (way > kLongestReach) {
+    if (tissue_.is_used_up() || place.clearance < clearance_.rest) return false;
+    if (!fly(place, hand, clearance_.rest)) return false;
+    there.clearance = place.clearance;
+    look_around(there, told(), told_patch());
+  } else {
+    const double distance = std::max(told(), clearance_.rest + 2.0 * way);
+    if (!look_around(there, distance, told_patch())) return false;
+    if (there.clearance < clearance_.rest) return false;
+    const double growth = growth_from(place.clearance);
+    if (!is_clear({place.pose}, there, clearance_.rest) && !is_clear(place, there, growth) &&
+        !fly(place, hand, growth)) {
+      return false;
+    }
+  }
+  while (!contacts_.empty() && contacts_.back().distance >= told()) {
+    contacts_.pop_back();
+    walls_.pop_back();
+  }
+  place = there;
   return true;
 }
 
 void ProxyMotion::slide(ProxyPlace& place, const ToolPose& hand, double reach) {
-  way_ = {place.pose};
-  double clearance = place.clearance;
-  bool is_there = false;
-  for (int look = 0; look < kMostLooks; ++look) {
-    reach = std::clamp(reach, kShortestReach * clearance_.rest, kLongestReach * clearance_.rest);
-    look_around(place, reach);
-    if (look == 0) clearance = place.clearance;
+  way_.clear();
+  const ProxyPlace start = place;
+  const double converged =
+      std::max(kConverged * clearance_.rest, std::min(kSmallestSlide, 0.01 * clearance_.rest));
+  ProxyPlace last;
+  double growth = 0.0;
+  bool is_there = false, tells = false, is_proven = true;
+  for (int look = 1; look <= kMostLooks; ++look) {
+    reach = std::clamp(reach, kShortestReach, kLongestReach);
+    // The first look finds where to go. At a large clearance, the second one most often finds that
+    // the proxy is there, and all that the answer tells.
+    const double distance = clearance_.rest + reach;
+    tells = look > 1 && distance <= told();
+    const bool is_known = tells ? look_around(place, told(), told_patch())
+                                : look_around(place, distance, std::max(distance, kLongestReach));
+    if (!is_known) return stay_at(place, start);
+    if (look == 1) {
+      growth = growth_from(place.clearance);
+    } else {
+      is_proven = is_proven && is_clear(last, place, growth);
+    }
+    way_.push_back(place.pose);
     solver_.solve(mobility_.between(place.pose, hand), walls_);
     const double way = mobility_.longest_way(place.pose, solver_.displacement());
-    is_there = way < (solver_.is_held() ? kConverged * clearance_.rest : kSamePose);
-    if (is_there) break;
+    is_there = way < (solver_.is_held() ? converged : kSamePose);
+    if (is_there || look == kMostLooks) break;
+    last = place;
     if (solver_.is_held()) {
       const double share = std::min(1.0, reach / way);
       place.pose = mobility_.moved(place.pose, share * solver_.displacement(), hand);
     } else if (way <= reach) {
       place.pose = hand;
-    } else {
-      fly(place, hand, growth_from(clearance));
-    }
-    way_.push_back(place.pose);
+    } else if (reach == kLongestReach) {
+      fly(place, hand,
+          std::max(growth, std::min(clearance_.rest, place.clearance - kRoundingRoom)));
+    }  // Otherwise the next look sees farther from the same place.
     reach = 2.0 * way;
   }
-  if (way_.size() == 1) return;
-  const double growth = growth_from(clearance);
-  tissue_.touch(way_, growth, met_);
-  const auto touch = first_touch(growth);
-  if (touch) place.pose = pose_at(way_, *touch);
-  if (!touch && is_there) return;
+  if (!is_proven) {
+    if (tissue_.is_used_up()) return stay_at(place, start);
+    tissue_.touch(way_, growth, met_);
+    if (const auto touch = first_touch(growth)) {
+      place = {pose_at(way_, *touch), growth};
+      is_there = tells = false;
+    }
+  }
   // A proxy that has not arrived may hover far from tissue. Look for the faces that hold it farther
   // and farther away, until there is one.
-  reach = kShortestReach * clearance_.rest;
-  do {
-    look_around(place, reach);
-    reach *= 4.0;
-  } while (contacts_.empty() && reach <= kLongestReach * clearance_.rest);
-}
-
-/// Finds the walls around the proxy, and its clearance.
-void ProxyMotion::look_around(ProxyPlace& place, double reach) {
-  const double growth = clearance_.rest + reach;
-  find_walls(place.pose, growth);
-  place.clearance = growth;
-  for (const TissueContact& contact : contacts_) {
-    place.clearance = std::min(place.clearance, contact.distance);
+  double distance = told();
+  if (!tells) look_around(place, distance, told_patch());
+  while (!is_there && contacts_.empty() && distance < kFarthestLook * clearance_.rest) {
+    distance *= 2.0;
+    look_around(place, distance, told_patch());
   }
 }
 
-/// Finds the faces that are nearer than `growth` [m] to the proxy at a pose.
-void ProxyMotion::find_walls(const ToolPose& pose, double growth) {
-  tissue_.touch({pose}, growth, contacts_);
+/// The work of a tick is used up before a motion from `start` was proven to be free.
+void ProxyMotion::stay_at(ProxyPlace& place, const ProxyPlace& start) {
+  place = start;
+  contacts_.clear();
   walls_.clear();
-  add_walls(pose, pose, contacts_);
+}
+
+/// Finds the walls up to a distance [m] around the proxy, one for each patch of this radius [m],
+/// and its clearance. Returns false if the work of the tick is used up: the clearance is not known
+/// then.
+bool ProxyMotion::look_around(ProxyPlace& place, double distance, double patch) {
+  const bool is_complete = tissue_.look(place.pose, {distance, patch, clearance_.rest}, contacts_);
+  walls_.clear();
+  add_walls(place.pose, place.pose, contacts_);
+  if (is_complete) place.clearance = contacts_.empty() ? distance : contacts_.front().distance;
+  return is_complete;
+}
+
+/// [m] Up to which distance the answer tells of tissue, and the radius of its patches.
+double ProxyMotion::told() const { return kTold * clearance_.rest; }
+double ProxyMotion::told_patch() const { return std::max(clearance_.rest, kSmallestPatch); }
+
+/// Whether the distances at both ends prove that the straight way between two places stays farther
+/// than `growth` [m] from tissue: a distance changes by at most what the tool moves.
+bool ProxyMotion::is_clear(const ProxyPlace& from, const ProxyPlace& to, double growth) const {
+  const double way = tissue_.farthest_move(from.pose, to.pose);
+  const double least = std::max(0.5 * (from.clearance + to.clearance - way), to.clearance - way);
+  return least > std::max(growth, 0.0) + kRoundingRoom;
 }
 
 /// Adds a wall for each contact: when the motion ends, the tool must be the clearance away from the
@@ -298,7 +362,8 @@ std::optional<double> ProxyMotion::first_touch(double growth) const {
   std::optional<double> first;
   for (const TissueContact& met : met_) {
     const double fraction = met.contact.fraction;
-    if (growth <= tissue_.least_growth() && fraction == 0.0) continue;
+    const bool touched_first = fraction == 0.0 && met.contact.is_resolved;
+    if (growth <= tissue_.least_growth() && touched_first) continue;
     if (!first || fraction < *first) first = fraction;
   }
   return first;

@@ -33,7 +33,8 @@ struct ProxyClearance {
 };
 
 /// Moves a proxy. A swept collision query checks each motion, and the proxy moves only as far as it
-/// touches nothing. Each function makes a bounded number of queries.
+/// touches nothing. Each function makes a bounded number of queries. After Tissue::kMostTests, a
+/// proxy stays where it is proven to be free.
 class ProxyMotion {
  public:
   /// `mobility` and `tissue` must outlive this object.
@@ -62,8 +63,9 @@ class ProxyMotion {
   /// away this place may be. The joints and the trocar of `place` must be those of `hand`.
   void slide(ProxyPlace& place, const ToolPose& hand, double reach);
 
-  /// The faces near the proxy after slide(), or after fly() has reached the hand: all faces within
-  /// at least twice the clearance at rest.
+  /// The tissue near the proxy after slide(), or after fly() has reached the hand, the nearest
+  /// first: of each locally convex patch the nearest face, if it is within at least twice the
+  /// clearance at rest.
   const std::vector<TissueContact>& contacts() const { return contacts_; }
   /// The walls that belong to contacts(), in the same order.
   const std::vector<Wall>& walls() const { return walls_; }
@@ -78,8 +80,11 @@ class ProxyMotion {
   std::vector<ToolPose> starts(const ToolPose& hand, const std::vector<OrganTick>& organs) const;
   bool fly(ProxyPlace& place, const ToolPose& hand, double growth);
   double share_of_give_way(const ToolPose& given) const;
-  void look_around(ProxyPlace& place, double reach);
-  void find_walls(const ToolPose& pose, double growth);
+  bool look_around(ProxyPlace& place, double distance, double patch);
+  void stay_at(ProxyPlace& place, const ProxyPlace& start);
+  double told() const;
+  double told_patch() const;
+  bool is_clear(const ProxyPlace& from, const ProxyPlace& to, double growth) const;
   void add_walls(const ToolPose& given, const ToolPose& pose,
                  const std::vector<TissueContact>& contacts);
   double growth_from(double clearance) const;

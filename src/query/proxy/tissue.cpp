@@ -1,6 +1,9 @@
 #include "tissue.hpp"
 
 #include <algorithm>
+#include <tuple>
+
+#include "geometry/tool/leg_motion.hpp"
 
 namespace organ_collision {
 namespace {
@@ -64,18 +67,77 @@ void Tissue::touch(const std::vector<ToolPose>& way, double growth,
     query_.evaluate(
         make_request({tick.now, moves ? tick.before : nullptr}, grown, {mode}, std::move(path)),
         result_);
-    const Eigen::Isometry3d T_proxy_organ = tick.T_now.inverse();
+    count(result_.picked.drawn + result_.picked.undrawn);
     for (const FaceContact& found : result_.contacts) {
       // A middle line has grown by its whole radius.
       const double growth_of_link = is_thin ? kAxisRadius : growth;
-      const double grown_by = found.link == kShaft ? radius - tool_.radius : growth_of_link;
-      TissueContact contact{organ, found, grown_by - found.depth};
-      contact.contact.point = T_proxy_organ * found.point;
-      contact.contact.on_organ = T_proxy_organ * found.on_organ;
-      contact.contact.normal = T_proxy_organ.linear() * found.normal;
-      contacts.push_back(contact);
+      add(organ, found, found.link == kShaft ? radius - tool_.radius : growth_of_link, contacts);
     }
   }
+}
+
+/// Adds a contact of a tool that is grown by `grown_by` [m], in the organ's frame.
+void Tissue::add(std::size_t organ, const FaceContact& found, double grown_by,
+                 std::vector<TissueContact>& contacts) const {
+  const Eigen::Isometry3d T_proxy_organ = (*organs_)[organ].T_now.inverse();
+  TissueContact contact{organ, found, grown_by - found.depth};
+  contact.contact.point = T_proxy_organ * found.point;
+  contact.contact.on_organ = T_proxy_organ * found.on_organ;
+  contact.contact.normal = T_proxy_organ.linear() * found.normal;
+  contacts.push_back(contact);
+}
+
+bool Tissue::look(const ToolPose& pose, const PatchFinder::Limits& limits,
+                  std::vector<TissueContact>& contacts) {
+  contacts.clear();
+  bool is_complete = true;
+  for (std::size_t organ = 0; organ < organs_->size(); ++organ) {
+    const OrganTick& tick = (*organs_)[organ];
+    const CollisionRequest request = make_request({tick.now}, {tool_.radius, &tool_.links}, {},
+                                                  {waypoint(0.0, tick.T_now, pose)});
+    BlockBoxes unused;
+    std::size_t tests = tests_;
+    found_.clear();
+    if (!patches_.find(Step(request, request.path, unused), limits, tests, found_)) {
+      is_complete = false;
+    }
+    count(tests_ - tests);
+    // A face has one contact with a link, whichever part of the link is the nearest.
+    std::sort(found_.begin(), found_.end(), [](const FaceContact& a, const FaceContact& b) {
+      return std::tie(a.face, a.link, b.depth) < std::tie(b.face, b.link, a.depth);
+    });
+    const auto end = std::unique(found_.begin(), found_.end(), [](const auto& a, const auto& b) {
+      return a.face == b.face && a.link == b.link;
+    });
+    for (auto found = found_.begin(); found != end; ++found) add(organ, *found, 0.0, contacts);
+  }
+  std::stable_sort(contacts.begin(), contacts.end(),
+                   [](const auto& a, const auto& b) { return a.distance < b.distance; });
+  return is_complete;
+}
+
+/// Counts tests of a face against a part of the tool.
+void Tissue::count(std::size_t tests) {
+  tests_made_ += tests;
+  tests_ -= std::min(tests, tests_);
+}
+
+/// The velocity of a point of a link is v + w x R (c + q), with the link's ball around c. The mean
+/// of v + w x R c is how far c moves, from which it differs by at most |w|^2 |c|.
+double Tissue::farthest_move(const ToolPose& from, const ToolPose& to) const {
+  double most = 0.0;
+  if (tool_.radius > 0.0) {
+    most =
+        std::max((to.axis.trocar - from.axis.trocar).norm(), (to.axis.tip - from.axis.tip).norm());
+  }
+  for (std::size_t link = 0; link < tool_.links.size(); ++link) {
+    const LinkBall ball = ball_around(tool_.links[link]);
+    const RigidMotion motion(from.links[link], to.links[link]);
+    const double angle = motion.angle();
+    most = std::max(most, (motion.end() * ball.center - motion.start() * ball.center).norm() +
+                              angle * (ball.radius + angle * ball.center.norm()));
+  }
+  return most;
 }
 
 std::vector<ShaftAxis> Tissue::places_of(const ToolPose& pose) const {

@@ -5,6 +5,7 @@
 
 #include "organ_collision/query/collision_query.hpp"
 #include "organ_collision/query/haptic_proxy.hpp"
+#include "patch_finder.hpp"
 #include "query/make_request.hpp"
 
 namespace organ_collision {
@@ -42,6 +43,19 @@ class Tissue {
   /// `tool` must outlive this. Throws GlError.
   Tissue(const ProxyTool& tool, const PickerSettings& picker);
 
+  /// [1] A tick begins no further search after so many tests of a face against a part of the tool.
+  /// A test takes about 0.3 us, of a mesh longer.
+  static constexpr std::size_t kMostTests = 50'000;
+  /// Begins a tick, which may make so many tests.
+  void start_tick(std::size_t tests = kMostTests) {
+    tests_ = tests;
+    tests_made_ = 0;
+  }
+  /// Whether the tests of this tick are used up.
+  bool is_used_up() const { return tests_ == 0; }
+  /// How many tests this tick has made.
+  std::size_t tests_made() const { return tests_made_; }
+
   /// The organs of this tick. `organs` must stay valid until the next call of set_organs().
   void set_organs(const std::vector<OrganTick>& organs) { organs_ = &organs; }
 
@@ -51,6 +65,15 @@ class Tissue {
   /// first one of two poses to the second one.
   void touch(const std::vector<ToolPose>& way, double growth, std::vector<TissueContact>& contacts,
              Organs organs = Organs::kRest);
+
+  /// The tissue near the tool at a pose, the nearest first: of each locally convex patch only the
+  /// nearest face. The organs rest in their shapes now. Returns false if the tests of the tick were
+  /// used up: nearer faces may then be missing.
+  bool look(const ToolPose& pose, const PatchFinder::Limits& limits,
+            std::vector<TissueContact>& contacts);
+
+  /// [m] No point of the tool moves farther than this on the straight way between two poses.
+  double farthest_move(const ToolPose& from, const ToolPose& to) const;
 
   /// The places of the tool whose sides count: the axis of the shaft, and a point of each part of
   /// each link, as an axis without a length.
@@ -71,6 +94,9 @@ class Tissue {
   double least_growth() const;
 
  private:
+  void add(std::size_t organ, const FaceContact& found, double grown_by,
+           std::vector<TissueContact>& contacts) const;
+  void count(std::size_t tests);
   const AxisPlacement& placement(const OrganTick& organ, const ShaftAxis& axis,
                                  const SurfaceTopology* topology);
 
@@ -80,6 +106,10 @@ class Tissue {
   const std::vector<OrganTick>* organs_ = nullptr;
   CollisionQuery query_;
   CollisionResult result_;
+  PatchFinder patches_;
+  std::size_t tests_ = kMostTests;  ///< that are left
+  std::size_t tests_made_ = 0;
+  std::vector<FaceContact> found_;
 };
 
 }  // namespace organ_collision

@@ -1,14 +1,16 @@
 // The parts of a haptic proxy that have tests of their own: the solver, the ways in which a tool
-// can move, and the crossings of several organs.
+// can move, the crossings of several organs, the tissue nearby, and the bound of the work.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "geometry/tool/leg_motion.hpp"
 #include "proxy_scenes.hpp"
 #include "query/proxy/least_constraint.hpp"
 #include "query/proxy/mobility.hpp"
+#include "query/proxy/proxy_motion.hpp"
 #include "query/proxy/tissue.hpp"
 
 namespace organ_collision {
@@ -197,6 +199,117 @@ TEST(Tissue, HasTheCrossingsOfAllOrgansInTheirOrderAlongTheAxis) {
   EXPECT_EQ(crossings[2].organ, 0u);
   EXPECT_EQ(crossings[3].organ, 2u);
   EXPECT_NEAR(crossings[0].point.z(), 0.05, 1e-7);
+}
+
+/// An organ that rests.
+OrganTick resting(const ProxyOrgan& organ) {
+  OrganTick tick;
+  tick.before = tick.now = organ.shape.get();
+  return tick;
+}
+
+/// A sphere with bumps and hollows.
+GridSurface bumpy_sphere(Random& random) {
+  GridSurface surface = sphere(40, 70, 0.05);
+  for (std::size_t i = 0; i < surface.vertices.size(); i += 3) {
+    Eigen::Map<Eigen::Vector3f> at(&surface.vertices[i]);
+    at *= 1.0F + 0.05F * std::sin(90.0F * at.x()) * std::cos(70.0F * at.y()) +
+          static_cast<float>(random.uniform(-2e-3, 2e-3));
+  }
+  return surface;
+}
+
+// A plane test would find the nearest face only to within the roughness of a patch.
+TEST(Tissue, LooksFindTheNearestFaceAndOnlyFacesNearby) {
+  Random random(11);
+  for (const ProxyTool& tool : tools(random)) {
+    Tissue tissue(tool, PickerKind::kCpu);
+    const ProxyOrgan organ = organ_of(bumpy_sphere(random));
+    const std::vector<OrganTick> organs = {resting(organ)};
+    tissue.set_organs(organs);
+    std::size_t looked = 0, touched = 0;
+    for (int trial = 0; trial < 60; ++trial) {
+      const ToolPose pose = random_hand(tool, random);
+      const double distance = random.scale(1e-4, 0.03);
+      const PatchFinder::Limits limits{distance, random.scale(1e-4, 0.03),
+                                       random.scale(1e-4, 0.01)};
+      std::vector<TissueContact> near, all;
+      tissue.start_tick();
+      EXPECT_TRUE(tissue.look(pose, limits, near));
+      tissue.touch({pose}, distance, all);
+      ASSERT_EQ(near.empty(), all.empty()) << trial;
+      looked += near.size();
+      touched += all.size();
+      if (all.empty()) continue;
+      const auto is_nearer = [](const auto& a, const auto& b) { return a.distance < b.distance; };
+      const double nearest = std::min_element(all.begin(), all.end(), is_nearer)->distance;
+      EXPECT_TRUE(std::is_sorted(near.begin(), near.end(), is_nearer));
+      if (nearest > 0.0) {
+        EXPECT_NEAR(near.front().distance, nearest, 1e-8) << trial;
+      }
+      for (const TissueContact& found : near) {
+        EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const TissueContact& other) {
+          return other.contact.face == found.contact.face &&
+                 other.contact.link == found.contact.link;
+        })) << trial;
+      }
+    }
+    EXPECT_GT(looked, 30u);
+    EXPECT_LT(looked, touched);
+  }
+}
+
+TEST(Tissue, NoPointMovesFartherThanTheFarthestMove) {
+  Random random(12);
+  for (const ProxyTool& tool : tools(random)) {
+    Tissue tissue(tool, PickerKind::kCpu);
+    for (int trial = 0; trial < 50; ++trial) {
+      const ToolPose from = random_hand(tool, random), to = random_hand(tool, random);
+      const double bound = tissue.farthest_move(from, to);
+      EXPECT_LE((to.axis.tip - from.axis.tip).norm() * (tool.radius > 0.0 ? 1.0 : 0.0), bound);
+      for (std::size_t link = 0; link < tool.links.size(); ++link) {
+        const RigidMotion motion(from.links[link], to.links[link]);
+        const OrientedBox& box = tool.links[link].parts[0].bounds;
+        for (int corner = 0; corner < 8; ++corner) {
+          const Vector3d sign(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+          const Vector3d point = box.center + box.axes * box.half_size.cwiseProduct(sign);
+          double way = 0.0;
+          for (int i = 0; i < 32; ++i) {
+            way += (motion.at((i + 1) / 32.0) * point - motion.at(i / 32.0) * point).norm();
+          }
+          EXPECT_LE(way, bound * (1.0 + 1e-12));
+        }
+      }
+    }
+  }
+}
+
+TEST(ProxyMotion, StaysWhereItIsFreeWhenTheTestsOfATickAreUsedUp) {
+  constexpr double kClearance = 2e-3, kRadius = 0.05;
+  const ProxyTool tool = ball_tool();
+  Tissue tissue(tool, PickerKind::kCpu);
+  const auto mobility = make_mobility(tool);
+  ProxyMotion motion(*mobility, tissue);
+  motion.set_clearance(kClearance);
+  const ProxyOrgan organ = organ_of(sphere(60, 90, kRadius));
+  const std::vector<OrganTick> organs = {resting(organ)};
+  tissue.set_organs(organs);
+  const double height = kRadius + kToolRadius + kClearance;
+  const ToolPose start = ball_hand({0.0, 0.0, height}), hand = ball_hand({0.02, 0.01, 0.03});
+  mobility->measure(hand);
+  for (const std::size_t tests : {std::size_t{0}, std::size_t{1}, std::size_t{10}}) {
+    tissue.start_tick(tests);
+    ProxyPlace place{start, kClearance};
+    motion.slide(place, hand, 1e-3);
+    EXPECT_EQ(place.pose.axis.tip, start.axis.tip) << tests;
+    EXPECT_EQ(place.clearance, kClearance) << tests;
+    EXPECT_LE(tissue.tests_made(), tests);
+  }
+  tissue.start_tick();
+  ProxyPlace place{start, kClearance};
+  motion.slide(place, hand, 1e-3);
+  EXPECT_GT((place.pose.axis.tip - start.axis.tip).norm(), 1e-3);
+  EXPECT_FALSE(tissue.is_used_up());
 }
 
 }  // namespace

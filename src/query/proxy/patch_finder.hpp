@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "geometry/distance/face_search.hpp"
+#include "organ_collision/query/contact.hpp"
+#include "query/moving_part.hpp"
+
+namespace organ_collision {
+
+/// Finds the nearest face of each locally convex patch of an organ near a tool at rest. FaceSearch
+/// leads to the nearest faces. A nearer face covers a farther one if the plane between the tool and
+/// the nearer face keeps the farther one as far from the tool, and both are near each other: a tool
+/// that keeps away from the first keeps away from the second. Keeps its memory between searches.
+class PatchFinder {
+ public:
+  /// What is searched [m].
+  struct Limits {
+    double distance;   ///< up to this distance between tool and face
+    double patch;      ///< a face covers others up to this distance from its nearest point, or up
+                       ///< to its own distance from the tool if that is larger
+    double clearance;  ///< at about this distance, patches must be smooth
+  };
+
+  /// Adds the contacts of a static query that are not covered. The nearest face of each part of the
+  /// tool is never covered. At most kMost faces a part are added, the nearest ones; contacts of a
+  /// part are sorted by distance. Each test of a face against a part takes one of `tests`. Returns
+  /// false if none was left before the end: nearer faces may be missing.
+  bool find(const Step& step, const Limits& limits, std::size_t& tests,
+            std::vector<FaceContact>& contacts);
+
+ private:
+  static constexpr std::size_t kMost = 64;
+
+  /// A face that was found. All lengths belong to the core of the tool's part [m].
+  struct Patch {
+    Patch(std::uint32_t its_face, const ClosestPoints& its_closest, const MovingPart& part,
+          bool is_convex, const Limits& limits);
+
+    std::uint32_t face;
+    ClosestPoints closest;
+    /// From the core to the face. Zero if they meet: the face then covers no other one.
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+    /// The support value of the core along the normal.
+    double support = std::numeric_limits<double>::infinity();
+    double radius;     ///< it covers faces up to this distance from its nearest point
+    double roughness;  ///< a covered face may be this much nearer than the plane
+
+    /// Whether the plane at right angles to the normal keeps whatever is beyond `lowest` as far
+    /// from the core as the face is, or at least `nearest`.
+    bool keeps_beyond(double lowest, double nearest) const;
+  };
+
+  bool is_covered(const Triangle& face, double nearest);
+  bool is_covered(const BlockBoxes::Box& box, double nearest) const;
+
+  FaceSearch search_;
+  std::vector<Patch> patches_;  ///< of the present part
+  std::vector<Patch> found_;    ///< the same, with some that nearer ones cover
+  std::size_t last_ = 0;        ///< the patch that covered the last face: it often covers the next
+};
+
+}  // namespace organ_collision
