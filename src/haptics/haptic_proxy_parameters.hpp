@@ -31,6 +31,8 @@ struct HapticProxyParameters : OrganNodeParameters {
   double max_torque = 0.1;   ///< [N m] about a free tool's centre; larger ones shrink
   double max_force_rate = 0.0, max_torque_rate = 0.0;  ///< [N/s], [N m/s]; 0: see wrench_limits()
   double clearance = ProxySettings().clearance;        ///< [m]
+  double row_reach = 0.02;                             ///< ProxySettings::row_reach
+  bool hand_rows = ProxySettings().hand_rows;
   double jump = ProxySettings().jump;                  ///< [m]
   double puncture_force = 0.0;       ///< [N] at this force, a needle pierces; 0: never
   double friction = 0.0;             ///< [N] along a needle that has pierced tissue
@@ -106,6 +108,14 @@ inline ParameterTable table_of(HapticProxyParameters& p) {
       .live();
   t.number("clearance", p.clearance, {0.0, 0.1, false}, "[m] the proxy stops this far from tissue")
       .live();
+  t.number("row_reach", p.row_reach, {0.0, 1.0},
+           "[m] the state lists tissue up to this distance from the proxy, and at least up to twice "
+           "the clearance")
+      .live();
+  t.flag("hand_rows", p.hand_rows,
+         "true: the state also lists the tissue near the hand as it is, for controllers that move "
+         "a robot")
+      .live();
   t.number("jump", p.jump, {0.0, 10.0, false, true},
            "[m] if the hand moves farther between two poses, its proxy is placed anew")
       .live();
@@ -155,6 +165,8 @@ inline ProxySettings proxy_settings(const HapticProxyParameters& parameters,
                                     const ToolParameters& tool) {
   ProxySettings settings;
   settings.clearance = parameters.clearance;
+  settings.row_reach = parameters.row_reach;
+  settings.hand_rows = parameters.hand_rows;
   settings.jump = parameters.jump;
   if (tool.freedom != ProxyFreedom::kTrocar) return settings;  // A free tool pierces nothing.
   if (parameters.puncture_force > 0.0) {

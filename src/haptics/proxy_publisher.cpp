@@ -60,7 +60,8 @@ ProxyState state_of(const ProxyReport& report) {
     state.state = static_cast<std::uint8_t>(report.answer->state);
     state.placed_anew = report.answer->is_placed_anew;
     state.pull = to_vector(report.answer->pull);
-    state.contacts = places_of(report);
+    state.contacts = places_of(report, report.answer->contacts);
+    state.hand_contacts = places_of(report, report.answer->hand_contacts);
   }
   state.center = tf2::toMsg(report.center);
   state.wrench = wrench_about_origin(report, force_of(report.forces), torque_of(report.forces));

@@ -78,6 +78,7 @@ ProxyReport ToolProxy::follow(const Timed<ToolPose>& hand, const ProxyScene& sce
   ProxyReport report{tool_, frame_, stamp, ContactArray::OK, answer.message, hand_, held_};
   report.answer = &answer;
   report.scene = &scene;
+  report.clearance = parameters_.clearance;
   report.tick_sec = passed.count();
   set_forces(report, std::move(target), now);
   return report;

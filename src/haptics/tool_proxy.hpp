@@ -36,7 +36,8 @@ struct ProxyReport {
   bool is_fading = false;  ///< the forces are on their way to those of this state
   /// The parameter whose limit reduced the forces. Null: no limit reduced them.
   const char* clipped_by = nullptr;
-  double tick_sec = 0.0;  ///< [s] how long HapticProxy::follow() took
+  double clearance = 0.0;  ///< [m] that the proxy keeps
+  double tick_sec = 0.0;   ///< [s] how long HapticProxy::follow() took
   /// The pose of the tool's tip frame (tip_frame_of()) in `frame`. Empty: it was never known.
   std::optional<Eigen::Isometry3d> tip_frame = {};
   /// The organ whose shape this answers, if the tool is in lockstep. Empty: all organs.

@@ -175,6 +175,8 @@ void check_settings(const ProxyTool& tool, const ProxySettings& settings) {
   const auto is_positive = [](double value) { return std::isfinite(value) && value > 0.0; };
   require(is_positive(settings.clearance), "the clearance is ", settings.clearance,
           " m; it must be > 0 and finite");
+  require(settings.row_reach >= 0.0 && std::isfinite(settings.row_reach), "the row_reach is ",
+          settings.row_reach, " m; it must be >= 0 and finite");
   require(settings.jump > 0.0, "the jump is ", settings.jump, " m; it must be > 0");
   require(settings.friction == 0.0 || is_positive(settings.friction), "the friction is ",
           settings.friction, " m; it must be >= 0 and finite");

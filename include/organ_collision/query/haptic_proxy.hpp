@@ -60,6 +60,10 @@ struct ProxySettings {
   /// proxy, along the axis. It is the threshold of the force divided by the stiffness. Not set: the
   /// tool never pierces. Only for a shaft through a trocar.
   std::optional<double> puncture = {};
+  /// [m] ProxyAnswer::contacts lists tissue up to this distance, and at least up to twice the
+  /// clearance.
+  double row_reach = 0.0;
+  bool hand_rows = false;  ///< whether ProxyAnswer::hand_contacts is filled
   /// [m] A needle in tissue slides along its axis if the tip of the hand is this far from the tip
   /// of the proxy, along the axis. It is the friction divided by the stiffness.
   double friction = 0.0;
@@ -137,6 +141,9 @@ struct ProxyAnswer {
   double size = 0.0;
   /// The faces near the proxy, and their loads, the nearest first.
   std::vector<ProxyFace> contacts;
+  /// If ProxySettings::hand_rows is set: the same for the hand as it is, without loads. Empty if the
+  /// way from the proxy to the hand meets tissue.
+  std::vector<ProxyFace> hand_contacts;
   /// Where a needle goes through tissue, from entry to tip. Empty unless the needle has pierced.
   std::vector<ProxyCrossing> crossings;
   /// How many faces were tested one by one against parts of the tool: the work of the tick.

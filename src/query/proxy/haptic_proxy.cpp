@@ -19,6 +19,14 @@ constexpr double kSamePlace = 1e-12;
 /// two lengths: the clearance, and the distance of the nearest face.
 constexpr double kResting = 1.02;
 
+/// A face near a tool, without a load.
+ProxyFace face_at(const TissueContact& near) {
+  ProxyFace face{near.organ, near.contact, 0.0};
+  face.contact.fraction = 0.0;
+  face.contact.depth = -near.distance;
+  return face;
+}
+
 }  // namespace
 
 struct HapticProxy::State {
@@ -64,6 +72,7 @@ struct HapticProxy::State {
   bool is_in_new_tissue(Tick& tick);
   HandWay way_of(const ToolPose& hand) const;
   void describe(Tick& tick);
+  std::vector<ProxyFace> rows_of_hand(const Tick& tick, double reach);
 
   std::unique_ptr<Mobility> mobility;
   Tissue tissue;
@@ -288,26 +297,40 @@ void HapticProxy::State::describe(Tick& tick) {
   // The greatest distance of a face that bears load. It exceeds the clearance if the proxy hovers
   // because it did not reach its place in this tick.
   const double resting = kResting * std::max(settings.clearance, nearest);
-  const double told = std::max(2.0 * settings.clearance, resting);
+  double told = std::max(2.0 * settings.clearance, resting);
+  if (settings.row_reach > told) {
+    told = settings.row_reach;
+    motion.look_farther(now.pose, told);
+  }
   std::vector<Wall> holding;
   for (std::size_t i = 0; i < motion.contacts().size(); ++i) {
     const TissueContact& near = motion.contacts()[i];
     if (near.distance >= told) continue;
-    ProxyFace contact{near.organ, near.contact, 0.0};
-    contact.contact.fraction = 0.0;
-    contact.contact.depth = -near.distance;
-    said.contacts.push_back(contact);
+    said.contacts.push_back(face_at(near));
     const bool holds = near.distance <= resting;
     // A row of zeros bears no load.
     holding.push_back({holds ? motion.walls()[i].row : Displacement(Displacement::Zero()), 0.0});
   }
   solver.solve(back, holding);
   for (std::size_t i = 0; i < holding.size(); ++i) said.contacts[i].load = solver.load(i);
+  if (settings.hand_rows) said.hand_contacts = rows_of_hand(tick, told);
   if (nearest < ProxyClearance{settings.clearance}.least()) {
     said.state = ProxyStatus::kSqueezed;
   } else {
     said.state = back.isZero(0.0) ? ProxyStatus::kFree : ProxyStatus::kTouching;
   }
+}
+
+/// The tissue up to a distance [m] from the hand as it is. Empty if the way from the proxy to the
+/// hand meets tissue: the hand has passed a wall, behind which its rows would point the wrong way.
+std::vector<ProxyFace> HapticProxy::State::rows_of_hand(const Tick& tick, double reach) {
+  std::vector<TissueContact> near;
+  tissue.touch({tick.place->pose, tick.hand}, 0.0, near);
+  if (!near.empty()) return {};
+  motion.look_farther(tick.hand, reach);
+  std::vector<ProxyFace> rows;
+  for (const TissueContact& contact : motion.contacts()) rows.push_back(face_at(contact));
+  return rows;
 }
 
 }  // namespace organ_collision

@@ -328,6 +328,13 @@ bool ProxyMotion::look_around(ProxyPlace& place, double distance, double patch) 
   return is_complete;
 }
 
+void ProxyMotion::look_farther(const ToolPose& pose, double distance) {
+  if (!tissue_.look(pose, {distance, told_patch(), clearance_.rest}, met_)) return;
+  contacts_.swap(met_);
+  walls_.clear();
+  add_walls(pose, pose, contacts_);
+}
+
 /// [m] Up to which distance the answer tells of tissue, and the radius of its patches.
 double ProxyMotion::told() const { return kTold * clearance_.rest; }
 double ProxyMotion::told_patch() const { return std::max(clearance_.rest, kSmallestPatch); }
