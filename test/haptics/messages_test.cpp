@@ -40,32 +40,6 @@ TEST(VertexForces, AForceIsDividedByTheBarycentricCoordinates) {
   EXPECT_EQ(to_eigen(found.forces[3]), Vector3d(0.0, -1.0, -2.0));
 }
 
-ProxyFace face_at(double distance, const std::array<std::uint32_t, 3>& vertices,
-                  const Vector3d& barycentric) {
-  ProxyFace at;
-  at.contact.vertices = vertices;
-  at.contact.barycentric = barycentric;
-  at.contact.depth = -distance;
-  return at;
-}
-
-TEST(Basins, APathLeadsOverSharedEdgesAndVerticesToTheNearestFace) {
-  const Vector3d inside(0.2, 0.3, 0.5), on_edge(0.4, 0.6, 0.0), on_vertex(0.0, 1.0, 0.0);
-  std::vector<ProxyFace> contacts = {
-      face_at(3e-5, {4, 5, 6}, on_vertex),  // vertex 5, which both of the next faces have
-      face_at(2e-5, {8, 5, 7}, on_edge),    // the edge from 8 to 5
-      face_at(1e-5, {5, 8, 9}, inside),     // the nearest one
-      face_at(2.5e-5, {7, 10, 5}, inside),  // shares vertex 5, but contains no point of the others
-      face_at(4e-5, {8, 9, 11}, on_vertex)};  // vertex 9
-  EXPECT_EQ(basins_of(contacts), (std::vector<std::size_t>{2, 2, 2, 3, 2}));
-  contacts[2].contact.link = 0;
-  EXPECT_EQ(basins_of(contacts), (std::vector<std::size_t>{1, 1, 2, 3, 4})) << "of another link";
-  contacts[2].contact.link = kShaft;
-  contacts[2].organ = 1;
-  EXPECT_EQ(basins_of(contacts), (std::vector<std::size_t>{1, 1, 2, 3, 4})) << "of another organ";
-  EXPECT_TRUE(basins_of({}).empty());
-}
-
 TEST(PairNames, AreLegalNamesOfTheGraph) {
   PairNames names;
   EXPECT_EQ(names.of("Liver_2", "hook"), "Liver_2/hook");

@@ -313,22 +313,27 @@ void HapticProxy::State::describe(Tick& tick) {
   }
   solver.solve(back, holding);
   for (std::size_t i = 0; i < holding.size(); ++i) said.contacts[i].load = solver.load(i);
-  if (settings.hand_rows) said.hand_contacts = rows_of_hand(tick, told);
   if (nearest < ProxyClearance{settings.clearance}.least()) {
     said.state = ProxyStatus::kSqueezed;
   } else {
     said.state = back.isZero(0.0) ? ProxyStatus::kFree : ProxyStatus::kTouching;
   }
+  if (settings.hand_rows) said.hand_contacts = rows_of_hand(tick, told);
 }
 
 /// The tissue up to a distance [m] from the hand as it is. Empty if the way from the proxy to the
 /// hand meets tissue: the hand has passed a wall, behind which its rows would point the wrong way.
+/// Empty, too, if the tests of the tick are used up. Then the rows of the proxy count.
 std::vector<ProxyFace> HapticProxy::State::rows_of_hand(const Tick& tick, double reach) {
-  std::vector<TissueContact> near;
-  tissue.touch({tick.place->pose, tick.hand}, 0.0, near);
-  if (!near.empty()) return {};
-  motion.look_farther(tick.hand, reach);
   std::vector<ProxyFace> rows;
+  if (tick.answer.state == ProxyStatus::kFree) {
+    rows = tick.answer.contacts;
+    for (ProxyFace& row : rows) row.load = 0.0;
+    return rows;
+  }
+  std::vector<TissueContact> met;
+  tissue.touch({tick.place->pose, tick.hand}, 0.0, met);
+  if (!met.empty() || !motion.look_farther(tick.hand, reach)) return rows;
   for (const TissueContact& contact : motion.contacts()) rows.push_back(face_at(contact));
   return rows;
 }

@@ -328,11 +328,12 @@ bool ProxyMotion::look_around(ProxyPlace& place, double distance, double patch) 
   return is_complete;
 }
 
-void ProxyMotion::look_farther(const ToolPose& pose, double distance) {
-  if (!tissue_.look(pose, {distance, told_patch(), clearance_.rest}, met_)) return;
+bool ProxyMotion::look_farther(const ToolPose& pose, double distance) {
+  if (!tissue_.look(pose, {distance, told_patch(), clearance_.rest}, met_)) return false;
   contacts_.swap(met_);
   walls_.clear();
   add_walls(pose, pose, contacts_);
+  return true;
 }
 
 /// [m] Up to which distance the answer tells of tissue, and the radius of its patches.

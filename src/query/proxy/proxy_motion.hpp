@@ -63,9 +63,9 @@ class ProxyMotion {
   /// away this place may be. The joints and the trocar of `place` must be those of `hand`.
   void slide(ProxyPlace& place, const ToolPose& hand, double reach);
 
-  /// Extends contacts() and walls() to tissue up to a distance [m] from the proxy at a pose. If the
-  /// tests of the tick are used up, both stay as they are.
-  void look_farther(const ToolPose& pose, double distance);
+  /// Replaces contacts() and walls() by those up to a distance [m] from the tool at a pose. If the
+  /// tests of the tick are used up, it returns false, and both stay as they are.
+  bool look_farther(const ToolPose& pose, double distance);
 
   /// The tissue near the proxy after slide(), or after fly() has reached the hand, the nearest
   /// first: of each locally convex patch the nearest face, if it is within at least twice the
