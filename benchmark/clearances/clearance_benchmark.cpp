@@ -14,6 +14,8 @@
 #include <vector>
 
 #include "benchmark/cases/timing.hpp"
+#include "benchmark/engines/engine.hpp"
+#include "benchmark/scenes/organ_surface.hpp"
 #include "guarded_scene.hpp"
 #include "query/make_request.hpp"
 
@@ -23,6 +25,8 @@ namespace {
 constexpr double kClearances[] = {1e-4, 2e-3, 5e-3, 1e-2};  // [m]
 /// Each time after so many ticks, the proxy is placed anew.
 constexpr std::size_t kTicksToReset = 1000;
+/// FCL is measured each time after so many ticks: it takes long.
+constexpr std::size_t kTicksToFcl = 50;
 
 /// [s] The time for which the calling thread has had a processor.
 double thread_time() {
@@ -80,6 +84,7 @@ class Measurement {
         std::make_shared<TriangleMesh>(organ_.surface().vertices, organ_.surface().triangles());
     shapes_[1] = std::make_shared<TriangleMesh>(*shapes_[0]);
     for (const double clearance : kClearances) runs_.emplace_back(tool_, clearance);
+    fcl_->set_topology({organ_.surface().vertices, organ_.surface().triangles()});
   }
 
   void measure(std::size_t ticks) {
@@ -91,6 +96,7 @@ class Measurement {
  private:
   void follow(std::size_t tick);
   double distance(const ToolPose& pose, double margin);
+  void measure_fcl(const SharedVertices& vertices, const ToolPose& pose);
 
   GuardedTool kind_;
   ProxyTool tool_;
@@ -99,7 +105,8 @@ class Measurement {
   std::shared_ptr<TriangleMesh> shapes_[2];  // the latest one first
   CollisionQuery query_;
   CollisionResult result_;
-  Durations queries_;
+  std::unique_ptr<Locator> fcl_ = make_fcl_locator();
+  Durations queries_, fcl_times_;
   std::vector<Run> runs_;
 };
 
@@ -113,9 +120,20 @@ double Measurement::distance(const ToolPose& pose, double margin) {
   return result_.clearance.state == ClearanceState::kKnown ? result_.clearance.distance : margin;
 }
 
+/// What a guard without this package would do: FCL refits its tree of boxes, and tells the distance
+/// of the shaft, or of a capsule for each link.
+void Measurement::measure_fcl(const SharedVertices& vertices, const ToolPose& pose) {
+  fcl_times_.add(time_of([&] {
+    const double radius = kind_ == GuardedTool::kArm ? kGuardedLinkRadius : tool_.radius;
+    fcl_->update(vertices);
+    for (const ShaftAxis& axis : guarded_axes(kind_, pose)) fcl_->locate(axis, radius);
+  }));
+}
+
 void Measurement::follow(std::size_t tick) {
   std::swap(shapes_[0], shapes_[1]);
-  shapes_[0]->move_vertices(organ_.shape(tick));
+  const SharedVertices vertices = organ_.shape(tick);
+  shapes_[0]->move_vertices(vertices);
   const ToolPose hand = guarded_hand(kind_, tick);
   const ToolPose last = guarded_hand(kind_, tick > 0 ? tick - 1 : 0);
   const CollisionRequest swept = make_request(
@@ -139,6 +157,7 @@ void Measurement::follow(std::size_t tick) {
     const bool is_precise = std::abs(away - run.clearance) <= std::max(1e-6, 0.01 * run.clearance);
     if (&ticks == &run.held && is_precise) ++run.precise;
   }
+  if (tick % kTicksToFcl == 0) measure_fcl(vertices, hand);
 }
 
 void print(const std::string& name, const Ticks& ticks) {
@@ -151,7 +170,10 @@ void print(const std::string& name, const Ticks& ticks) {
 void Measurement::print() const {
   std::cout << std::fixed << std::setprecision(1) << "One swept query of the step: median "
             << 1e6 * queries_.quantile(0.5) << " us, 99th percentile "
-            << 1e6 * queries_.quantile(0.99) << " us\n\n"
+            << 1e6 * queries_.quantile(0.99) << " us\n"
+            << "FCL, refit and one distance for each part: median "
+            << 1e6 * fcl_times_.quantile(0.5) << " us, 99th percentile "
+            << 1e6 * fcl_times_.quantile(0.99) << " us\n\n"
             << "| clearance, ticks | count | median, us | 99 % | most | to one swept query: median "
                "| 99 % | at the clearance | least distance / clearance | most contacts | most pair "
                "tests |\n"

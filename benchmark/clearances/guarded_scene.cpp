@@ -29,8 +29,8 @@ const Vector3d kHandFrequencies(0.5, 0.8, 1.1);   // [Hz]
 const Vector3d kHandPhases(0.0, 0.5 * kPi, 1.0);  // [rad]
 constexpr double kShaftRadius = 2e-3;             // [m]
 constexpr std::size_t kArmLinks = 9;
-constexpr double kLinkLength = 0.03, kLinkRadius = 5e-3;  // [m]
-constexpr double kLinkAngle = 0.12;                       // [rad] the most between two links
+constexpr double kLinkLength = 0.03;  // [m]
+constexpr double kLinkAngle = 0.12;   // [rad] the most between two links
 
 Eigen::Map<const Eigen::VectorXf> as_vector(const std::vector<float>& vertices) {
   return {vertices.data(), static_cast<Eigen::Index>(vertices.size())};
@@ -73,8 +73,8 @@ ProxyTool make_guarded_tool(GuardedTool tool) {
   ProxyTool arm{0.0, {}, ProxyFreedom::kFree};
   for (std::size_t i = 0; i < kArmLinks; ++i) {
     const Isometry3d middle(Eigen::Translation3d(0.0, 0.0, 0.5 * kLinkLength));
-    arm.links.push_back(
-        {"link" + std::to_string(i), {LinkPart::cylinder(middle, kLinkRadius, kLinkLength)}});
+    arm.links.push_back({"link" + std::to_string(i),
+                         {LinkPart::cylinder(middle, kGuardedLinkRadius, kLinkLength)}});
   }
   return arm;
 }
@@ -95,6 +95,15 @@ ToolPose guarded_hand(GuardedTool tool, std::size_t tick) {
            Eigen::AngleAxisd(angle, i % 2 == 0 ? Vector3d::UnitX() : Vector3d::UnitY());
   }
   return pose;
+}
+
+std::vector<ShaftAxis> guarded_axes(GuardedTool tool, const ToolPose& pose) {
+  if (tool == GuardedTool::kShaft) return {pose.axis};
+  std::vector<ShaftAxis> axes;
+  for (const Isometry3d& link : pose.links) {
+    axes.push_back({link.translation(), link * Vector3d(0.0, 0.0, kLinkLength)});
+  }
+  return axes;
 }
 
 }  // namespace organ_collision::bench

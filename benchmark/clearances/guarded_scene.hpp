@@ -10,6 +10,8 @@
 
 namespace organ_collision::bench {
 
+inline constexpr double kGuardedLinkRadius = 5e-3;  ///< [m] of the links of the arm
+
 /// An ellipsoid of 20 by 14 by 8 cm whose surface waves by 4 mm at 1.2 Hz, at up to 30 mm/s. It has
 /// a new shape at each tick of 1 ms.
 class WavingEllipsoid {
@@ -37,5 +39,8 @@ ProxyTool make_guarded_tool(GuardedTool tool);
 /// The hand at a tick: its tip is on a Lissajous curve of 14 by 10 by 10 cm at 0.5 to 1.1 Hz, about
 /// the middle of the ellipsoid.
 ToolPose guarded_hand(GuardedTool tool, std::size_t tick);
+
+/// The middle lines of the shaft or of the links at a pose. The links end flat, not round.
+std::vector<ShaftAxis> guarded_axes(GuardedTool tool, const ToolPose& pose);
 
 }  // namespace organ_collision::bench

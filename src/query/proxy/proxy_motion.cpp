@@ -260,22 +260,20 @@ void ProxyMotion::slide(ProxyPlace& place, const ToolPose& hand, double reach) {
       std::max(kConverged * clearance_.rest, std::min(kSmallestSlide, 0.01 * clearance_.rest));
   ProxyPlace last;
   double growth = 0.0;
-  bool is_there = false, tells = false, is_proven = true;
+  bool is_there = false, tells = false;
+  std::size_t unproven = 0;  // so many of the first places of the way are not known to be clear
   for (int look = 1; look <= kMostLooks; ++look) {
     reach = std::clamp(reach, kShortestReach, kLongestReach);
     // The first look finds where to go. At a large clearance, the second one most often finds that
     // the proxy is there, and all that the answer tells.
     const double distance = clearance_.rest + reach;
-    tells = look > 1 && distance <= told();
-    const bool is_known = tells ? look_around(place, told(), told_patch())
+    tells = look > 1;
+    const bool is_known = tells ? look_around(place, std::max(distance, told()), told_patch())
                                 : look_around(place, distance, std::max(distance, kLongestReach));
     if (!is_known) return stay_at(place, start);
-    if (look == 1) {
-      growth = growth_from(place.clearance);
-    } else {
-      is_proven = is_proven && is_clear(last, place, growth);
-    }
+    if (look == 1) growth = growth_from(place.clearance);
     way_.push_back(place.pose);
+    if (look > 1 && !is_clear(last, place, growth)) unproven = way_.size();
     solver_.solve(mobility_.between(place.pose, hand), walls_);
     const double way = mobility_.longest_way(place.pose, solver_.displacement());
     is_there = way < (solver_.is_held() ? converged : kSamePose);
@@ -292,8 +290,9 @@ void ProxyMotion::slide(ProxyPlace& place, const ToolPose& hand, double reach) {
     }  // Otherwise the next look sees farther from the same place.
     reach = 2.0 * way;
   }
-  if (!is_proven) {
+  if (unproven > 0) {
     if (tissue_.is_used_up()) return stay_at(place, start);
+    way_.resize(unproven);
     tissue_.touch(way_, growth, met_);
     if (const auto touch = first_touch(growth)) {
       place = {pose_at(way_, *touch), growth};
