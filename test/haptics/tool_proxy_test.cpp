@@ -306,10 +306,10 @@ TEST_F(ToolProxyTest, AStateHasTheNearestPlaceOfEachPatchWithItsForce) {
   const DeformableOrgan sheet("liver", "liver_frame", TriangleMesh(vertices, triangles),
                               ros::Time(1), ros::Time(1));
   scene_.organs[0].shape = sheet.latest().mesh;
+  parameters_.row_reach = 0.0;
   ToolProxy proxy(tool_, parameters_);
   press(proxy, 0.0);
   const ProxyReport report = follow(proxy, 0.0);
-  EXPECT_GT(report.answer->contacts.size(), 10U);
   const std::vector<ProxyContact> places = state_of(report).contacts;
   ASSERT_EQ(places.size(), 1U);
   EXPECT_EQ(places[0].organ, "liver");

@@ -72,12 +72,14 @@ struct HapticProxy::State {
   bool is_in_new_tissue(Tick& tick);
   HandWay way_of(const ToolPose& hand) const;
   void describe(Tick& tick);
-  std::vector<ProxyFace> rows_of_hand(const Tick& tick, double reach);
+  bool add_rows(const ToolPose& pose, double from, std::vector<ProxyFace>& rows);
+  void describe_hand(Tick& tick);
 
   std::unique_ptr<Mobility> mobility;
   Tissue tissue;
   ProxyMotion motion;
   LeastConstraint solver;
+  std::vector<TissueContact> found;
 
   ToolPose last_hand;
   double last_way = 0.0;  ///< [m] how far the proxy moved in the last tick
@@ -297,11 +299,7 @@ void HapticProxy::State::describe(Tick& tick) {
   // The greatest distance of a face that bears load. It exceeds the clearance if the proxy hovers
   // because it did not reach its place in this tick.
   const double resting = kResting * std::max(settings.clearance, nearest);
-  double told = std::max(2.0 * settings.clearance, resting);
-  if (settings.row_reach > told) {
-    told = settings.row_reach;
-    motion.look_farther(now.pose, told);
-  }
+  const double told = std::max(2.0 * settings.clearance, resting);
   std::vector<Wall> holding;
   for (std::size_t i = 0; i < motion.contacts().size(); ++i) {
     const TissueContact& near = motion.contacts()[i];
@@ -318,24 +316,36 @@ void HapticProxy::State::describe(Tick& tick) {
   } else {
     said.state = back.isZero(0.0) ? ProxyStatus::kFree : ProxyStatus::kTouching;
   }
-  if (settings.hand_rows) said.hand_contacts = rows_of_hand(tick, told);
+  add_rows(now.pose, told, said.contacts);
+  if (settings.hand_rows) describe_hand(tick);
 }
 
-/// The tissue up to a distance [m] from the hand as it is. Empty if the way from the proxy to the
-/// hand meets tissue: the hand has passed a wall, behind which its rows would point the wrong way.
-/// Empty, too, if the tests of the tick are used up. Then the rows of the proxy count.
-std::vector<ProxyFace> HapticProxy::State::rows_of_hand(const Tick& tick, double reach) {
-  std::vector<ProxyFace> rows;
+/// Adds the tissue that is at least `from` [m] away from the tool at a pose, up to the row_reach
+/// or twice the clearance: the nearest face of each patch, whose radius is half as much. Returns
+/// false if the tests of the tick are used up. Tissue is then missing.
+bool HapticProxy::State::add_rows(const ToolPose& pose, double from, std::vector<ProxyFace>& rows) {
+  const double reach = std::max(2.0 * settings.clearance, settings.row_reach);
+  if (reach <= from) return true;
+  const bool is_complete = tissue.look(pose, {reach, 0.5 * reach, settings.clearance}, found);
+  for (const TissueContact& near : found) {
+    if (near.distance >= from) rows.push_back(face_at(near));
+  }
+  return is_complete;
+}
+
+/// The rows of the hand as it is. None if the way from the proxy to the hand meets tissue: the hand
+/// has passed a wall, behind which its rows would point the wrong way. None, too, if the tests of
+/// the tick are used up.
+void HapticProxy::State::describe_hand(Tick& tick) {
+  std::vector<ProxyFace>& rows = tick.answer.hand_contacts;
   if (tick.answer.state == ProxyStatus::kFree) {
     rows = tick.answer.contacts;
     for (ProxyFace& row : rows) row.load = 0.0;
-    return rows;
+    return;
   }
-  std::vector<TissueContact> met;
-  tissue.touch({tick.place->pose, tick.hand}, 0.0, met);
-  if (!met.empty() || !motion.look_farther(tick.hand, reach)) return rows;
-  for (const TissueContact& contact : motion.contacts()) rows.push_back(face_at(contact));
-  return rows;
+  tissue.touch({tick.place->pose, tick.hand}, 0.0, found);
+  if (!found.empty()) return;
+  if (!add_rows(tick.hand, 0.0, rows)) rows.clear();
 }
 
 }  // namespace organ_collision

@@ -66,7 +66,12 @@ bool PatchFinder::find(const Step& step, const Limits& limits, std::size_t& test
     patches_.clear();
     for (const Patch& patch : found_) {
       if (patches_.size() == kMost) break;
-      if (is_covered(organ.after().triangle(patch.face), nearest)) continue;
+      const Triangle face = organ.after().triangle(patch.face);
+      const bool is_covered = std::any_of(patches_.begin(), patches_.end(), [&](const Patch& of) {
+        return (of.closest.on_face - patch.closest.on_face).norm() <= of.radius &&
+               of.keeps_beyond(project_onto(of.normal, face).low, nearest);
+      });
+      if (is_covered) continue;
       patches_.push_back(patch);
       contacts.push_back(contact_on(step, span.begin, *moving, patch.face, {0.0, patch.closest}));
     }

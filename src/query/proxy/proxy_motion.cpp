@@ -28,8 +28,8 @@ constexpr double kConverged = 0.0025, kSmallestSlide = 1e-6;
 /// [m] How far a proxy slides from one look to the next, at most. It looks at least so far, and at
 /// most so far, beyond its clearance.
 constexpr double kShortestReach = 1e-4, kLongestReach = 2e-3;
-/// [m] The least radius of a patch whose nearest face the answer tells.
-constexpr double kSmallestPatch = 5e-4;
+/// [m] The least radius of a patch. At a larger clearance, it is the clearance.
+constexpr double kSmallestPatch = 2e-3;
 /// [1] The answer tells of tissue up to this many times the clearance at rest.
 constexpr double kTold = 2.0;
 /// [1] A proxy that hovers looks for the faces that hold it up to this many times its clearance.
@@ -234,10 +234,10 @@ bool ProxyMotion::fly(ProxyPlace& place, const ToolPose& hand) {
     if (tissue_.is_used_up() || place.clearance < clearance_.rest) return false;
     if (!fly(place, hand, clearance_.rest)) return false;
     there.clearance = place.clearance;
-    look_around(there, told(), told_patch());
+    look_around(there, told());
   } else {
     const double distance = std::max(told(), clearance_.rest + 2.0 * way);
-    if (!look_around(there, distance, told_patch())) return false;
+    if (!look_around(there, distance)) return false;
     if (there.clearance < clearance_.rest) return false;
     const double growth = growth_from(place.clearance);
     if (!is_clear({place.pose}, there, clearance_.rest) && !is_clear(place, there, growth) &&
@@ -268,18 +268,24 @@ void ProxyMotion::slide(ProxyPlace& place, const ToolPose& hand, double reach) {
     // the proxy is there, and all that the answer tells.
     const double distance = clearance_.rest + reach;
     tells = look > 1;
-    const bool is_known = tells ? look_around(place, std::max(distance, told()), told_patch())
-                                : look_around(place, distance, std::max(distance, kLongestReach));
-    if (!is_known) return stay_at(place, start);
+    if (!look_around(place, tells ? std::max(distance, told()) : distance)) {
+      return stay_at(place, start);
+    }
     if (look == 1) growth = growth_from(place.clearance);
     way_.push_back(place.pose);
     if (look > 1 && !is_clear(last, place, growth)) unproven = way_.size();
-    solver_.solve(mobility_.between(place.pose, hand), walls_);
+    Displacement goal = mobility_.between(place.pose, hand);
+    const bool goes_on = look < kMostLooks - 1;
+    // If the place is not found in this tick, the last step only restores the clearance.
+    const double off = 2.0 * std::abs(place.clearance - clearance_.rest);
+    if (!goes_on && goal.norm() > off) goal *= off / goal.norm();
+    solver_.solve(goal, walls_);
     const double way = mobility_.longest_way(place.pose, solver_.displacement());
-    is_there = way < (solver_.is_held() ? converged : kSamePose);
-    if (is_there || look == kMostLooks) break;
+    const bool stays = way < (solver_.is_held() ? converged : kSamePose);
+    is_there = stays && goes_on;
+    if (stays || look == kMostLooks) break;
     last = place;
-    if (solver_.is_held()) {
+    if (solver_.is_held() || !goes_on) {
       const double share = std::min(1.0, reach / way);
       place.pose = mobility_.moved(place.pose, share * solver_.displacement(), hand);
     } else if (way <= reach) {
@@ -302,10 +308,10 @@ void ProxyMotion::slide(ProxyPlace& place, const ToolPose& hand, double reach) {
   // A proxy that has not arrived may hover far from tissue. Look for the faces that hold it farther
   // and farther away, until there is one.
   double distance = told();
-  if (!tells) look_around(place, distance, told_patch());
+  if (!tells) look_around(place, distance);
   while (!is_there && contacts_.empty() && distance < kFarthestLook * clearance_.rest) {
     distance *= 2.0;
-    look_around(place, distance, told_patch());
+    look_around(place, distance);
   }
 }
 
@@ -316,10 +322,10 @@ void ProxyMotion::stay_at(ProxyPlace& place, const ProxyPlace& start) {
   walls_.clear();
 }
 
-/// Finds the walls up to a distance [m] around the proxy, one for each patch of this radius [m],
-/// and its clearance. Returns false if the work of the tick is used up: the clearance is not known
-/// then.
-bool ProxyMotion::look_around(ProxyPlace& place, double distance, double patch) {
+/// Finds the walls up to a distance [m] around the proxy, one for each patch, and its clearance.
+/// Returns false if the work of the tick is used up: the clearance is not known then.
+bool ProxyMotion::look_around(ProxyPlace& place, double distance) {
+  const double patch = std::max(clearance_.rest, kSmallestPatch);
   const bool is_complete = tissue_.look(place.pose, {distance, patch, clearance_.rest}, contacts_);
   walls_.clear();
   add_walls(place.pose, place.pose, contacts_);
@@ -327,17 +333,8 @@ bool ProxyMotion::look_around(ProxyPlace& place, double distance, double patch) 
   return is_complete;
 }
 
-bool ProxyMotion::look_farther(const ToolPose& pose, double distance) {
-  if (!tissue_.look(pose, {distance, told_patch(), clearance_.rest}, met_)) return false;
-  contacts_.swap(met_);
-  walls_.clear();
-  add_walls(pose, pose, contacts_);
-  return true;
-}
-
-/// [m] Up to which distance the answer tells of tissue, and the radius of its patches.
+/// [m] Up to which distance the answer tells of tissue.
 double ProxyMotion::told() const { return kTold * clearance_.rest; }
-double ProxyMotion::told_patch() const { return std::max(clearance_.rest, kSmallestPatch); }
 
 /// Whether the distances at both ends prove that the straight way between two places stays farther
 /// than `growth` [m] from tissue: a distance changes by at most what the tool moves.

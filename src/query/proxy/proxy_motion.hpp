@@ -63,10 +63,6 @@ class ProxyMotion {
   /// away this place may be. The joints and the trocar of `place` must be those of `hand`.
   void slide(ProxyPlace& place, const ToolPose& hand, double reach);
 
-  /// Replaces contacts() and walls() by those up to a distance [m] from the tool at a pose. If the
-  /// tests of the tick are used up, it returns false, and both stay as they are.
-  bool look_farther(const ToolPose& pose, double distance);
-
   /// The tissue near the proxy after slide(), or after fly() has reached the hand, the nearest
   /// first: of each locally convex patch the nearest face, if it is within at least twice the
   /// clearance at rest.
@@ -84,10 +80,9 @@ class ProxyMotion {
   std::vector<ToolPose> starts(const ToolPose& hand, const std::vector<OrganTick>& organs) const;
   bool fly(ProxyPlace& place, const ToolPose& hand, double growth);
   double share_of_give_way(const ToolPose& given) const;
-  bool look_around(ProxyPlace& place, double distance, double patch);
+  bool look_around(ProxyPlace& place, double distance);
   void stay_at(ProxyPlace& place, const ProxyPlace& start);
   double told() const;
-  double told_patch() const;
   bool is_clear(const ProxyPlace& from, const ProxyPlace& to, double growth) const;
   void add_walls(const ToolPose& given, const ToolPose& pose,
                  const std::vector<TissueContact>& contacts);
