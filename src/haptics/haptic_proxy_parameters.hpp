@@ -33,10 +33,10 @@ struct HapticProxyParameters : OrganNodeParameters {
   double clearance = ProxySettings().clearance;        ///< [m]
   double row_reach = 0.02;                             ///< ProxySettings::row_reach
   bool hand_rows = ProxySettings().hand_rows;
-  double jump = ProxySettings().jump;                  ///< [m]
-  double puncture_force = 0.0;       ///< [N] at this force, a needle pierces; 0: never
-  double friction = 0.0;             ///< [N] along a needle that has pierced tissue
-  std::map<std::string, Side> keep;  ///< ProxyOrgan::keep by organ; of all others: kOutside
+  double jump = ProxySettings().jump;  ///< [m]
+  double puncture_force = 0.0;         ///< [N] at this force, a needle pierces; 0: never
+  double friction = 0.0;               ///< [N] along a needle that has pierced tissue
+  std::map<std::string, Side> keep;    ///< ProxyOrgan::keep by organ; of all others: kOutside
   double pose_timeout_sec = 0.02;
   double frame_timeout_sec = 0.5;  ///< since an organ's frame came, unless static; 0: any
   bool organ_interpolation = true;
@@ -108,9 +108,10 @@ inline ParameterTable table_of(HapticProxyParameters& p) {
       .live();
   t.number("clearance", p.clearance, {0.0, 0.1, false}, "[m] the proxy stops this far from tissue")
       .live();
-  t.number("row_reach", p.row_reach, {0.0, 1.0},
-           "[m] the state lists tissue up to this distance from the proxy, and at least up to twice "
-           "the clearance")
+  t.number(
+       "row_reach", p.row_reach, {0.0, 1.0},
+       "[m] while somebody reads the state, it lists tissue up to this distance from the proxy, "
+       "and at least up to twice the clearance")
       .live();
   t.flag("hand_rows", p.hand_rows,
          "true: the state also lists the tissue near the hand as it is, for controllers that move "

@@ -137,6 +137,10 @@ void ProxyPublisher::set_tools(const std::vector<ToolParameters>& tools) {
   }
 }
 
+bool ProxyPublisher::has_readers(const ToolParameters& tool) const {
+  return tools_.at(tool.name).state.getNumSubscribers() > 0;
+}
+
 void ProxyPublisher::publish(const ProxyReport& report) {
   ToolTopics& topics = tools_.at(report.tool.name);
   for (const OrganForce& of_organ : report.forces) {

@@ -54,6 +54,8 @@ class ProxyPublisher {
 
   /// Makes the topics of these tools, and ends the topics of all other tools.
   void set_tools(const std::vector<ToolParameters>& tools);
+  /// Whether somebody reads the states of a tool of set_tools().
+  bool has_readers(const ToolParameters& tool) const;
   /// `report`: about one of the tools of set_tools().
   void publish(const ProxyReport& report);
 

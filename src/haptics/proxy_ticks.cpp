@@ -199,6 +199,7 @@ void HapticProxyNode::tick(Hand& hand, const Timed<ToolPose>& pose, const ProxyS
   const std::string tip_frame = tip_frame_of(hand.proxy->tool());
   const auto tip = look_up(inbox_.transforms, frame_.name(), tip_frame, pose.stamp);
   if (tip.found) hand.proxy->set_tip_frame(tip.found->value);
+  hand.proxy->tell_rows(publisher_.has_readers(hand.proxy->tool()));
   ProxyReport report = hand.proxy->follow(pose, scene, now);
   report.answered_organ = answered_organ;
   publisher_.publish(report);

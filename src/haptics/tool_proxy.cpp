@@ -159,9 +159,20 @@ void ToolProxy::change_frame(const std::string& frame, const Eigen::Isometry3d& 
   limiter_.rotate(T_new_old.linear());
 }
 
+ProxySettings ToolProxy::settings() const {
+  ProxySettings settings = proxy_settings(parameters_, tool_);
+  if (!tells_rows_) settings.row_reach = 0.0;
+  if (!tells_rows_) settings.hand_rows = false;
+  return settings;
+}
+
 void ToolProxy::update_settings() {
-  proxy_.set_settings(proxy_settings(parameters_, tool_));
+  proxy_.set_settings(settings());
   limiter_.expect_change();
+}
+
+void ToolProxy::tell_rows(bool tells) {
+  if (std::exchange(tells_rows_, tells) != tells) proxy_.set_settings(settings());
 }
 
 }  // namespace organ_collision

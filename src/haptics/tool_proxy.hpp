@@ -116,8 +116,12 @@ class ToolProxy {
   void change_frame(const std::string& frame, const Eigen::Isometry3d& T_new_old);
   /// Call it when the parameters have changed.
   void update_settings();
+  /// Whether the next reports have the rows for controllers beyond twice the clearance: `row_reach`
+  /// and `hand_rows` count only while somebody reads them. They cost as much as the rest of a tick.
+  void tell_rows(bool tells);
 
  private:
+  ProxySettings settings() const;
   std::vector<OrganForce> forces(const ProxyAnswer& answer, const ProxyScene& scene,
                                  const Eigen::Vector3d& damping_force) const;
   Eigen::Vector3d damping(const ProxyAnswer& answer, const ProxyScene& scene, ros::Time stamp);
@@ -126,6 +130,7 @@ class ToolProxy {
   ToolParameters tool_;
   const HapticProxyParameters& parameters_;
   HapticProxy proxy_;
+  bool tells_rows_ = true;
   WrenchLimiter limiter_;
   bool lets_go_ = false;
   bool is_lost_ = true;  ///< there was no answer at the last call

@@ -14,7 +14,9 @@ namespace organ_collision {
 /// Finds the nearest face of each locally convex patch of an organ near a tool at rest. FaceSearch
 /// leads to the nearest faces. A nearer face covers a farther one if the plane between the tool and
 /// the nearer face keeps the farther one as far from the tool, and both are near each other: a tool
-/// that keeps away from the first keeps away from the second. Keeps its memory between searches.
+/// that keeps away from the first keeps away from the second. If a still nearer face covers the
+/// first one, the second may be nearer to the tool than the plane by up to a fifth of its distance.
+/// Keeps its memory between searches.
 class PatchFinder {
  public:
   /// What is searched [m].

@@ -28,8 +28,6 @@ constexpr double kConverged = 0.0025, kSmallestSlide = 1e-6;
 /// [m] How far a proxy slides from one look to the next, at most. It looks at least so far, and at
 /// most so far, beyond its clearance.
 constexpr double kShortestReach = 1e-4, kLongestReach = 2e-3;
-/// [m] The least radius of a patch. At a larger clearance, it is the clearance.
-constexpr double kSmallestPatch = 2e-3;
 /// [1] The answer tells of tissue up to this many times the clearance at rest.
 constexpr double kTold = 2.0;
 /// [1] A proxy that hovers looks for the faces that hold it up to this many times its clearance.
@@ -325,7 +323,8 @@ void ProxyMotion::stay_at(ProxyPlace& place, const ProxyPlace& start) {
 /// Finds the walls up to a distance [m] around the proxy, one for each patch, and its clearance.
 /// Returns false if the work of the tick is used up: the clearance is not known then.
 bool ProxyMotion::look_around(ProxyPlace& place, double distance) {
-  const double patch = std::max(clearance_.rest, kSmallestPatch);
+  // A wall must hold as far as the proxy slides.
+  const double patch = std::max(clearance_.rest, kLongestReach);
   const bool is_complete = tissue_.look(place.pose, {distance, patch, clearance_.rest}, contacts_);
   walls_.clear();
   add_walls(place.pose, place.pose, contacts_);

@@ -219,6 +219,23 @@ GridSurface bumpy_sphere(Random& random) {
   return surface;
 }
 
+/// Whether a face that a look found is the other one, or stands for it: a tool that stays on this
+/// side of the plane through the place found keeps away from the whole other face, and the places
+/// are near each other. The allowances are larger than those of patch_finder.cpp, because the face
+/// that covered the other one may itself be covered.
+bool covers(const TissueContact& found, const TissueContact& other, const TriangleMesh& shape,
+            const PatchFinder::Limits& limits) {
+  if (found.contact.link != other.contact.link) return false;
+  if (found.contact.face == other.contact.face) return true;
+  const double roughness = 0.01 * limits.clearance + 0.2 * found.distance;
+  const double radius = 2.0 * std::max(limits.patch, found.distance);
+  if ((found.contact.point - other.contact.point).norm() > radius + 1e-8) return false;
+  const Triangle face = shape.triangle(other.contact.face);
+  return std::all_of(face.begin(), face.end(), [&](const Vector3d& corner) {
+    return found.contact.normal.dot(corner - found.contact.point) >= -roughness - 1e-8;
+  });
+}
+
 // A plane test would find the nearest face only to within the roughness of a patch.
 TEST(Tissue, LooksFindTheNearestFaceAndOnlyFacesNearby) {
   Random random(11);
@@ -227,7 +244,7 @@ TEST(Tissue, LooksFindTheNearestFaceAndOnlyFacesNearby) {
     const ProxyOrgan organ = organ_of(bumpy_sphere(random));
     const std::vector<OrganTick> organs = {resting(organ)};
     tissue.set_organs(organs);
-    std::size_t looked = 0, touched = 0;
+    std::size_t looked = 0, touched = 0, covered = 0;
     for (int trial = 0; trial < 60; ++trial) {
       const ToolPose pose = random_hand(tool, random);
       const double distance = random.scale(1e-4, 0.03);
@@ -253,8 +270,17 @@ TEST(Tissue, LooksFindTheNearestFaceAndOnlyFacesNearby) {
                  other.contact.link == found.contact.link;
         })) << trial;
       }
+      if (nearest <= 0.0 || near.size() >= 64) continue;  // Only the nearest faces are told.
+      for (const TissueContact& other : all) {
+        EXPECT_TRUE(std::any_of(
+            near.begin(), near.end(),
+            [&](const TissueContact& found) { return covers(found, other, *organ.shape, limits); }))
+            << trial << ", a face at " << other.distance << " m";
+        ++covered;
+      }
     }
     EXPECT_GT(looked, 30u);
+    EXPECT_GT(covered, 50u);
     EXPECT_LT(looked, touched);
   }
 }
