@@ -17,6 +17,7 @@ import time
 
 from matplotlib.figure import Figure
 import numpy as np
+from organ_collision.msg import Grasp
 from organ_collision.recordings import BagError, Listener, read_bag
 from organ_collision.trial import Trial, TrialError
 from organ_collision.trial_plots import draw
@@ -134,7 +135,7 @@ class Report:
 
     def pair_rows(self):
         for (name, organ), pair in sorted(self.trial.pairs.items()):
-            tool, path, ends = self.trial.tools[name], self.paths[name], [grasp for grasp in pair.grasps if grasp.event]
+            tool, path, ends = self.trial.tools[name], self.paths[name], [grasp for grasp in pair.grasps if grasp[0] == Grasp.RELEASED]
             has_touches = pair.touches or pair.statuses and pair.deepest is None
             yield {'tool': name, 'organ': organ, 'answers': sum(pair.statuses.values()),
                    'not_ok_share': pair.clock.unknown_share(self.end), 'path_incomplete': pair.incomplete,
@@ -145,7 +146,7 @@ class Report:
                    'least_distance_m': pair.least, 'tip': tool.tip, 'path_m': path and path.path,
                    **{key: path and getattr(path, key) for key in ('path_sec', 'idle_sec', 'movements', 'sparc', 'ldlj')},
                    'grasps': pair.grasps and len(pair.grasps) - len(ends) or None,
-                   'grasp_sec': sum(grasp.duration_sec for grasp in ends) or None}
+                   'grasp_sec': sum(duration for _, duration, _ in ends) or None}
 
     def touch_rows(self):
         rows = [{'begin_sec': touch.begin - self.start, 'duration_sec': lasted, 'tool': pair.tool, 'organ': pair.organ,

@@ -6,14 +6,13 @@ import bz2
 from collections import namedtuple
 import functools
 import io
-import itertools
 import os
 import struct
 import sys
 import threading
 import time
-from types import SimpleNamespace
 
+from genpy.base import SIMPLE_TYPES_DICT
 import genpy.message
 import numpy as np
 import rospy
@@ -21,9 +20,7 @@ import rospy
 LARGEST = 1 << 30  # [bytes] A longer record is none: the file is damaged there.
 _UINT32 = struct.Struct('<I')
 _MESSAGE, _BAG, _CHUNK, _CONNECTION = b'\x02', b'\x03', b'\x05', b'\x07'  # the kinds of records of a bag
-_NUMBERS = {'bool': '?', 'char': 'u1', 'byte': 'i1', 'float32': '<f4', 'float64': '<f8', 'time': ('<u4', 2),
-            'duration': ('<i4', 2), **{sign + 'int%d' % bits: '<%s%d' % (sign or 'i', bits // 8)
-                                       for sign in ('', 'u') for bits in (8, 16, 32, 64)}}
+_CODES = {**SIMPLE_TYPES_DICT, 'bool': '?', 'time': '2I', 'duration': '2i'}  # of numbers, for struct and numpy
 
 # A topic as one node publishes it. kind: the type of its messages, such as organ_collision/ContactArray.
 Connection = namedtuple('Connection', 'topic kind md5 node')
@@ -43,13 +40,12 @@ def _fields(of):
 @functools.lru_cache(maxsize=None)
 def _fixed(of):
     """The numpy type of a type of fields that all have the same size; None if their sizes differ. Vectors of one
-    number type, such as geometry_msgs/Point, are rows; other messages are records; times are (seconds, nanoseconds).
-    """
-    if of in _NUMBERS:
-        return np.dtype(_NUMBERS[of])
+    number type, such as geometry_msgs/Point, are rows; other messages are records."""
     base, bracket, count = of.partition('[')
     if bracket:
         return np.dtype((_fixed(base), int(count[:-1]))) if count != ']' and _fixed(base) else None
+    if of in _CODES:
+        return np.dtype('<' + _CODES[of])
     parts = [] if of == 'string' else [(name, _fixed(part)) for name, part in _fields(of)]
     if not parts or any(part is None for _, part in parts):  # numpy takes None for a number type, too.
         return None
@@ -57,51 +53,83 @@ def _fixed(of):
     return np.dtype(('<f8', len(parts)) if is_row else parts)
 
 
-@functools.lru_cache(maxsize=None)
-def _groups(of):
-    """The fields of a message as pairs: a name and its type, or None and the numpy type of neighbours of fixed size."""
-    groups = []
-    for is_fixed, fields in itertools.groupby(_fields(of), lambda field: _fixed(field[1]) is not None):
-        groups += [(None, np.dtype([(name, _fixed(part)) for name, part in fields]))] if is_fixed else fields
-    return groups
+def _leaves(of, name=''):
+    """The fields of a type with those of its parts in their places: dotted names and types."""
+    if of == 'string' or of in _CODES or of[-1] == ']':
+        return [(name, of)]
+    return [leaf for part, kind in _fields(of) for leaf in _leaves(kind, (name + '.' + part).lstrip('.'))]
 
 
-def _read(of, data, at):
-    """The value of a type without a fixed size at this place of the bytes, and the place behind it."""
-    if of == 'string' or of[-1] == ']':
-        count, at = _UINT32.unpack_from(data, at)[0], at + 4
-        if count > len(data):
-            raise ValueError('%d values in %d bytes' % (count, len(data)))
-        if of == 'string':
-            return data[at:at + count].decode('utf-8', 'replace'), at + count
-        part, values = of[:-2], []
-        if _fixed(part):
-            kind = np.dtype([('value', _fixed(part))])  # As a record: numpy would make several numbers of a row.
-            return np.frombuffer(data, kind, count, at)['value'], at + count * kind.itemsize
+def _list_reader(of, wanted):
+    """A function that reads so many elements of a string or of a list without a fixed length. See _reader."""
+    part = None if of == 'string' else _fixed(of[:-2])
+    if of == 'string' and wanted:
+        return lambda data, at, count: (str(data[at:at + count], 'utf-8', 'replace'), at + count)
+    if part and wanted:
+        return lambda data, at, count: (np.frombuffer(data, part, count, at), at + count * part.itemsize)
+    if part or of == 'string':
+        return lambda data, at, count, size=part.itemsize if part else 1: (None, at + count * size)
+    read = _reader(of[:-2], wanted)
+
+    def read_list(data, at, count):
+        rows = []
         for _ in range(count):
-            value, at = _read(part, data, at)
-            values.append(value)
-        return values, at
-    fields = {}
-    for name, part in _groups(of):
-        if name:
-            fields[name], at = _read(part, data, at)
+            row, at = read(data, at)
+            rows.append(row)
+        return rows, at
+    return read_list
+
+
+@functools.lru_cache(maxsize=None)
+def _reader(of, wanted):
+    """A function that reads what is wanted of a type at a place of the bytes. It returns the values, and the place behind."""
+    steps, numbers = [], '<'
+    for name, kind in _leaves(of):
+        is_wanted = any((name + '.').startswith(one + '.') for one in wanted)
+        base, _, count = kind.partition('[')
+        if kind == 'string' or count == ']':
+            inner = ('',) if is_wanted else tuple(one[len(name) + 1:] for one in wanted if one.startswith(name + '.'))
+            steps.append((struct.Struct(numbers + 'I'), _list_reader(kind, inner), bool(inner)))
+            numbers = '<'
         else:
-            fields.update(zip(part.names, np.frombuffer(data, part, 1, at)[0]))
-            at += part.itemsize
-    return SimpleNamespace(**fields), at
+            code = count[:-1] + _CODES[base]
+            numbers += code if is_wanted else '%dx' % struct.calcsize('<' + code)
+    last = struct.Struct(numbers)
+
+    def read(data, at):
+        values = []
+        for before, read_list, is_wanted in steps:
+            *numbers, count = before.unpack_from(data, at)
+            value, at = read_list(data, at + before.size, count)
+            values += [*numbers, value] if is_wanted else numbers
+        values += last.unpack_from(data, at)
+        return values, at + last.size
+    return read
 
 
-def decode(kind, data):
-    """The fields of a message of this type, such as 'organ_collision/ContactArray', from its bytes. Lists of equally
-    long parts are numpy arrays: contacts['depth'] of an answer has the shape (k,), and contacts['point'] (k, 3). Raises
-    ValueError or struct.error if the bytes are damaged."""
-    return _read(kind, data, 0)[0]
+@functools.lru_cache(maxsize=None)
+def decoder(kind, wanted):
+    """A function that gives the wanted fields of a message from its bytes, as a list in their order in the message.
+
+    kind    the type of the message, such as 'organ_collision/ContactArray'
+    wanted  names such as 'header.stamp tool contacts.organ'. Times are two values (seconds, nanoseconds), parts such as
+            points the values of their fields. Lists are numpy arrays if their elements have a fixed size: contacts['depth']
+            of an answer has the shape (k,), and contacts['point'] (k, 3). Other lists are lists of such lists of values.
+
+    The function raises ValueError or struct.error if the bytes are damaged."""
+    read = _reader(kind, tuple(wanted.split()))
+
+    def decode(data):
+        values, end = read(data, 0)
+        if end != len(data):
+            raise ValueError('a message of %d bytes has %d' % (end, len(data)))
+        return values
+    return decode
 
 
-def seconds(stamp):
-    """A time of decode() in seconds."""
-    return float(stamp[0]) + 1e-9 * float(stamp[1])
+def seconds(secs, nsecs):
+    """A time in seconds."""
+    return secs + 1e-9 * nsecs
 
 
 def read_bag(path, trial):
@@ -123,7 +151,7 @@ def read_bag(path, trial):
                                                 about.get(b'callerid', ''))
                         connections[header[b'conn']] = connection if trial.has(connection) else None
                     elif kind == _MESSAGE and connections[header[b'conn']]:
-                        trial.take(connections[header[b'conn']], seconds(struct.unpack('<2I', header[b'time'])), data)
+                        trial.take(connections[header[b'conn']], seconds(*struct.unpack('<2I', header[b'time'])), data)
                 if time.monotonic() > shown + 1:
                     shown = time.monotonic()
                     print('\r%3.0f %% of %s' % (100 * file.tell() / size, path), end='', file=sys.stderr, flush=True)

@@ -5,19 +5,30 @@ doc/trials.md defines all measures. Only the tips' paths (23 MB an hour and tool
 
 from array import array
 from collections import Counter, defaultdict
+from math import hypot
+from operator import add
 from types import SimpleNamespace
 
 import numpy as np
 from PyKDL import Frame, Rotation, Vector
 
 from organ_collision.msg import Clearance, ContactArray, Grasp, ProxyState, TouchEvent
-from organ_collision.recordings import decode, seconds
+from organ_collision.recordings import decoder, seconds
 
 GAP = 1.0  # [s] Without an answer OK for longer, it is not known what happened. A longer step back of stamps is a jump.
 IDLE_SPEED, IDLE_TIME = 0.005, 0.5         # [m/s], [s] A tip that is slower for longer is idle.
 RATE, THINNED, PATH_GAP = 100, 0.005, 0.2  # [Hz], [s], [s] of paths
 HAND = 'hand of haptic_proxy'              # a source of a tip's poses
 KINDS = {kind._type: kind._md5sum for kind in (ContactArray, Grasp, ProxyState, TouchEvent)}
+# What is read of each message, in its order there.
+FIELDS = {
+    'organ_collision/ContactArray': 'header.stamp organ tool links status contacts clearance.state clearance.margin '
+                                    'clearance.distance clearance.least path_incomplete',
+    'organ_collision/TouchEvent': 'header.stamp event organ tool touch duration_sec deepest faces reason',
+    'organ_collision/Grasp': 'header.stamp event organ tool duration_sec reason',
+    'organ_collision/ProxyState': 'header.stamp tool state hand.position wrench.force contacts.organ contacts.force',
+    'geometry_msgs/PoseStamped': 'header.stamp pose.position',
+    'tf2_msgs/TFMessage': 'transforms.header.stamp transforms.header.frame_id transforms.child_frame_id transforms.transform'}
 
 
 class TrialError(RuntimeError):
@@ -79,6 +90,7 @@ class Path:
         self.clock, self.times, self.places, self.cuts = Clock(), array('d'), array('d'), [0]
 
     def add(self, stamp, place):
+        """A stamp of the tip, and a function that gives its place then."""
         jumps, time = len(self.clock.back), self.clock(stamp)
         has_jumped = len(self.clock.back) > jumps
         if self.times and not has_jumped and time < self.times[-1] + THINNED:
@@ -86,7 +98,7 @@ class Path:
         if has_jumped or self.times and time > self.times[-1] + PATH_GAP:
             self.cuts.append(len(self.times))
         self.times.append(time)
-        self.places.extend(place)
+        self.places.extend(place())
 
     def measures(self):
         """Its length, time and idle time, the mean smoothness of its movements, and an Envelope of its speed."""
@@ -153,37 +165,35 @@ class Pair:
         self.deepest = self.least = self.largest_force = None
         self.force_sum, self.pressed, self.touches, self.grasps = 0.0, 0, [], []
 
-    def answer(self, answer, stamp):
-        time = self.clock(stamp, answer.status == ContactArray.OK)
-        self.statuses[answer.status] += 1
-        if answer.status != ContactArray.OK:
+    def answer(self, stamp, status, contacts, state, margin, distance, least, is_incomplete):
+        time = self.clock(stamp, status == ContactArray.OK)
+        self.statuses[status] += 1
+        if status != ContactArray.OK:
             return
-        self.incomplete += bool(answer.path_incomplete)
-        clearance = answer.clearance
-        is_known = clearance['state'] == Clearance.KNOWN
-        least, distance = (float(clearance[name]) if is_known else 0.0 for name in ('least', 'distance'))
-        if len(answer.contacts):
-            depth, least = float(answer.contacts['depth'].max()), 0.0
+        self.incomplete += is_incomplete
+        is_known = state == Clearance.KNOWN
+        least, distance = (least, distance) if is_known else (0.0, 0.0)
+        if len(contacts):
+            depth, least = float(contacts['depth'].max()), 0.0
             self.deepest = depth if self.deepest is None else max(depth, self.deepest)
             self.series['depth'].add(time, depth, depth)
-        if len(answer.contacts) or is_known:
+        if len(contacts) or is_known:
             self.least = least if self.least is None else min(least, self.least)
             self.series['distance'].add(time, min(least, distance), distance)
-        elif clearance['state'] == Clearance.BEYOND_MARGIN:
-            self.margin = min(self.margin, float(clearance['margin']))
+        elif state == Clearance.BEYOND_MARGIN:
+            self.margin = min(self.margin, margin)
 
-    def event(self, event, stamp):
-        time, is_begin = self.clock.of_event(stamp), event.event == TouchEvent.BEGIN
-        begin = time if is_begin else time - event.duration_sec
+    def event(self, stamp, event, number, duration, deepest, faces, reason):
+        time, is_begin = self.clock.of_event(stamp), event == TouchEvent.BEGIN
+        begin = time if is_begin else time - duration
         last = self.touches[-1] if self.touches and self.touches[-1].seconds is None else None
-        if last and (is_begin or last.number != event.touch):
+        if last and (is_begin or last.number != number):
             last.seconds, last.reason, last = begin - last.begin, 'its end is missing', None
         if not last:
-            self.touches.append(SimpleNamespace(begin=begin, seconds=None, deepest=None, faces=None, number=event.touch,
+            self.touches.append(SimpleNamespace(begin=begin, seconds=None, deepest=None, faces=None, number=number,
                                                 reason='goes on at the end'))
         if not is_begin:
-            self.touches[-1].__dict__.update(seconds=event.duration_sec, deepest=event.deepest, faces=event.faces,
-                                             reason=event.reason or 'moved off')
+            self.touches[-1].__dict__.update(seconds=duration, deepest=deepest, faces=faces, reason=reason or 'moved off')
 
     def touch_sec(self):
         """The time of each touch."""
@@ -239,72 +249,80 @@ class Trial:
     def take(self, connection, receipt, data):
         """A message of a topic for which has() is true: the time of receipt [s], and its bytes. Raises TrialError if another
         node has answered about the same tool and organ, and ValueError if the bytes are damaged."""
-        message, kind = decode(connection.kind, data), connection.kind.split('/')[1]
+        values, kind = decoder(connection.kind, FIELDS[connection.kind])(data), connection.kind.split('/')[1]
         if kind == 'TFMessage':
-            return self.transforms(message.transforms, connection.topic.endswith('static'))
-        stamp = seconds(message.header.stamp) or receipt
+            return self.transforms(*values, connection.topic.endswith('static'))
+        stamp, values = seconds(*values[:2]) or receipt, values[2:]
         if kind == 'PoseStamped':
             for tool in (tool for tool, tip in self.tips.items() if tip == connection.topic):
-                self.tools[tool].paths[connection.topic].add(stamp, message.pose['position'])
+                self.tools[tool].paths[connection.topic].add(stamp, lambda: values)
             return
-        about = (message.tool, '' if kind == 'ProxyState' else message.organ)
+        at = {'ContactArray': 0, 'ProxyState': 0}.get(kind, 1)
+        about = (values[0], '') if kind == 'ProxyState' else (values[at + 1], values[at])
         known = self.sources.setdefault((kind, *about), connection)
         if known is not connection and known != connection:
             raise TrialError('%s about %s from two nodes: %s from %s and %s from %s; choose with --node' % (
                 kind, ' and '.join(filter(None, about)), known.topic, known.node or '?', connection.topic,
                 connection.node or '?'))
         if kind == 'ProxyState':
-            self.state(message, stamp)
+            self.state(stamp, *values)
         elif kind == 'ContactArray':
-            self.tools[message.tool].links = message.links
-            self.pair(*about).answer(message, stamp)
+            self.tools[about[0]].links = values[2]
+            self.pair(*about).answer(stamp, *values[3:])
         elif kind == 'TouchEvent':
-            self.pair(*about).event(message, stamp)
+            self.pair(*about).event(stamp, values[0], *values[3:])
         else:
-            self.pair(*about).grasps.append(message)
+            self.pair(*about).grasps.append((values[0], *values[3:]))
 
     def pair(self, *names):
         if names not in self.pairs:
             self.pairs[names] = Pair(*names, self.series)
         return self.pairs[names]
 
-    def state(self, state, stamp):
-        """A state of haptic_proxy: the force on the hand, and the force on each organ."""
-        tool = self.tools[state.tool]
-        time = tool.clock(stamp, state.state != ProxyState.NO_ANSWER)
-        if state.state == ProxyState.NO_ANSWER:
+    def state(self, stamp, name, state, *numbers):
+        """A state of haptic_proxy: the place of the hand, the force on it, and the force on each organ."""
+        tool, hand, force, contacts = self.tools[name], numbers[:3], numbers[3:6], numbers[6]
+        time = tool.clock(stamp, state != ProxyState.NO_ANSWER)
+        if state == ProxyState.NO_ANSWER:
             return
-        on_hand = float(np.linalg.norm(state.wrench['force']))
+        on_hand = hypot(*force)
         tool.largest_force = max(on_hand, tool.largest_force or 0.0)
         if self.tips is not None:
-            tool.paths[HAND].add(stamp, state.hand['position'])
-        forces = {organ: 0.0 for name, organ in self.pairs if name == state.tool}
-        for contact in state.contacts:
-            self.pair(state.tool, contact.organ).is_of_proxy = True
-            forces[contact.organ] = forces.get(contact.organ, 0.0) + contact.force
-        if state.state == ProxyState.PUNCTURED and tool.organ:
-            forces[tool.organ] = on_hand  # The state names no organ: it is the one that was pressed last.
+            tool.paths[HAND].add(stamp, lambda: hand)
+        forces = {organ: (0.0, 0.0, 0.0) for other, organ in self.pairs if other == name}
+        for organ, *force in contacts:
+            self.pair(name, organ).is_of_proxy = True
+            forces[organ] = [*map(add, forces.get(organ, (0.0, 0.0, 0.0)), force)]
+        if state == ProxyState.PUNCTURED and tool.organ:
+            forces[tool.organ] = (on_hand,)  # The state names no organ: it is the one that was pressed last.
         for organ, force in forces.items():
-            force = float(np.linalg.norm(force))
+            force = hypot(*force)
             tool.organ = organ if force > 0 else tool.organ
-            self.pair(state.tool, organ).force(time, force)
+            self.pair(name, organ).force(time, force)
 
     def transforms(self, transforms, is_static):
         """Transforms of TF: where the tips are in the frame above all others. For frames that are not in this message,
         the transforms that came last count."""
         moved = {}
-        for one in transforms:
-            child, part = one.child_frame_id.lstrip('/'), one.transform
-            self.frames[child] = (one.header.frame_id.lstrip('/'), Frame(
-                Rotation.Quaternion(*part['rotation'].tolist()), Vector(*part['translation'].tolist())))
-            moved[child] = 0.0 if is_static else seconds(one.header.stamp)
+        for secs, nsecs, parent, child, *numbers in transforms:
+            child = child.lstrip('/')
+            self.frames[child] = parent.lstrip('/'), numbers
+            moved[child] = 0.0 if is_static else seconds(secs, nsecs)
         for name, tool in self.tools.items():
-            frames = [self.tips[name]] if name in self.tips else [name + '_tip', *tool.links[:1]]
-            frame = tip = next((frame for frame in frames if frame in self.frames), None)
-            place, stamps = Vector(), []
-            while frame in self.frames and len(stamps) < 100:  # A loop of frames ends, too.
-                stamps.append(moved.get(frame, 0.0))
-                frame, transform = self.frames[frame]
-                place = transform * place
-            if any(stamps):
-                tool.paths['frame ' + tip].add(max(stamps), place)
+            tips = [self.tips[name]] if name in self.tips else [name + '_tip', *(link for link, in tool.links[:1])]
+            frame = tip = next((frame for frame in tips if frame in self.frames), None)
+            chain, stamp = [], 0.0
+            while frame in self.frames and len(chain) < 100:  # A loop of frames ends, too.
+                stamp = max(stamp, moved.get(frame, 0.0))
+                frame, numbers = self.frames[frame]
+                chain.append(numbers)
+            if stamp:
+                tool.paths['frame ' + tip].add(stamp, lambda: _origin(chain))
+
+
+def _origin(chain):
+    """The origin of the first of some frames in the frame above the last: each has its place and quaternion in the next."""
+    place = Vector()
+    for x, y, z, *quaternion in chain:
+        place = Frame(Rotation.Quaternion(*quaternion), Vector(x, y, z)) * place
+    return place

@@ -103,7 +103,7 @@ ProgramHelp organ_node_help(const std::string& program, const std::string& purpo
        "removes an organ, as a mesh without vertices and triangles does. If there is no such "
        "organ, success is false, and message says why"},
       {names::kListTools, service_type<ListTools>(),
-       "all tools as they were loaded: frames, links, radius, and why one cannot be used"},
+       "all tools as they were loaded: frames, links, jaws, radius, and why one cannot be used"},
       {names::kReset, service_type<std_srvs::Empty>(), reset},
       {names::kReloadTools, service_type<std_srvs::Trigger>(),
        "reads the parameter tools again, and the robots' files. Unchanged tools go on as "
