@@ -1,9 +1,10 @@
 #!/usr/bin/python3
 """The commands of the pages run as they stand.
 
-The commands of a page are typed from top to bottom, unless the paragraph before them says that they were run by hand.
-A command that runs until Ctrl-C must start a node. At the end of the page, it still runs or has ended without error.
-Every other command ends without error. Of the scripts at the top of the repository, only the options are checked.
+The commands of a page are typed from top to bottom, unless the paragraph before them says that they were run by hand,
+or their comment names a window. A command that runs until Ctrl-C must start a node. At the end of the page, it still
+runs or has ended without error. Every other command ends without error. Of the scripts at the top of the repository, only
+the options are checked.
 
 The first python3 in PATH is one that has no modules of ROS, as on machines with pyenv or conda.
 
@@ -28,7 +29,8 @@ from support.processes import OwnMaster  # noqa: E402
 # Each page, and what the reader has already started.
 START = ['roslaunch organ_collision start.launch']
 PAGES = {'README.md': [], 'doc/getting_started.md': [], 'doc/tools.md': [], 'doc/offline.md': [], 'doc/forces.md': [],
-         'doc/interface.md': START, 'doc/troubleshooting.md': START}
+         'doc/interface.md': START, 'doc/troubleshooting.md': START, 'doc/guard.md': START,
+         'doc/trials.md': ['roslaunch organ_collision forces.launch', 'rosrun organ_collision simulator.py']}
 LIMIT = 60.0  # [s]
 ORGAN = """v -0.05 -0.05 0
 v 0.05 -0.05 0
@@ -38,6 +40,7 @@ f 1 2 3
 f 1 3 4
 """
 TOOLS = '{tools: [{name: hook, trocar_frame: hook_trocar, tip_frame: hook_tip, radius: 0.005}]}\n'
+LIMITS = 'limits: [{organ: tissue, max_force: 2}]\n'
 OTHER_PYTHON = '#!/bin/sh\nexec /usr/bin/python3 -S "$@"\n'
 MOTIONS = '1,swept,0,0,0.1,-0.02,0,0.03,0.02,0,0.003,0.005\n'
 
@@ -52,7 +55,7 @@ def commands(page):
             continue
         for line in block.splitlines():
             command, _, comment = line.partition(' #')
-            if command.strip() and not command.startswith('. '):
+            if command.strip() and not command.startswith('. ') and 'window' not in comment:
                 yield command.strip(), comment
 
 
@@ -139,7 +142,7 @@ class CommandsTest(unittest.TestCase):
             with self.subTest(page=page), tempfile.TemporaryDirectory(prefix='organ_collision_') as folder:
                 os.mkdir(os.path.join(folder, 'bin'))
                 for name, content in (('organ.obj', ORGAN), ('motions.csv', MOTIONS), ('tools.yaml', TOOLS),
-                                      ('bin/python3', OTHER_PYTHON)):
+                                      ('limits.yaml', LIMITS), ('bin/python3', OTHER_PYTHON)):
                     with open(os.path.join(folder, name), 'w') as file:
                         file.write(content)
                 os.chmod(os.path.join(folder, 'bin', 'python3'), 0o755)
