@@ -135,7 +135,7 @@ class Report:
 
     def pair_rows(self):
         for (name, organ), pair in sorted(self.trial.pairs.items()):
-            tool, path, ends = self.trial.tools[name], self.paths[name], [grasp for grasp in pair.grasps if grasp[0] == Grasp.RELEASED]
+            tool, path, ends = self.trial.tools[name], self.paths[name], [rest for event, *rest in pair.grasps if event == Grasp.RELEASED]
             has_touches = pair.touches or pair.statuses and pair.deepest is None
             yield {'tool': name, 'organ': organ, 'answers': sum(pair.statuses.values()),
                    'not_ok_share': pair.clock.unknown_share(self.end), 'path_incomplete': pair.incomplete,
@@ -145,8 +145,9 @@ class Report:
                    'largest_force_N': pair.largest_force, 'largest_hand_force_N': tool.largest_force,
                    'least_distance_m': pair.least, 'tip': tool.tip, 'path_m': path and path.path,
                    **{key: path and getattr(path, key) for key in ('path_sec', 'idle_sec', 'movements', 'sparc', 'ldlj')},
-                   'grasps': pair.grasps and len(pair.grasps) - len(ends) or None,
-                   'grasp_sec': sum(duration for _, duration, _ in ends) or None}
+                   'grasps': len(pair.grasps) - len(ends) if pair.grasps else None,
+                   'grasps_let_go': [reason for _, reason in ends].count('') if pair.grasps else None,
+                   'grasp_sec': sum(duration for duration, _ in ends) or None}
 
     def touch_rows(self):
         rows = [{'begin_sec': touch.begin - self.start, 'duration_sec': lasted, 'tool': pair.tool, 'organ': pair.organ,

@@ -98,6 +98,7 @@ class Scene:
         if organ == 'liver':  # Who touches it also grasps it.
             yield NODE + '/grasps', Grasp(header=event.header, organ=organ, tool='probe', grasp=event.touch, faces_first=[1, 2],
                                           event=Grasp.GRASPED if gap <= 0 else Grasp.RELEASED,
+                                          reason='reset' if gap > 0 and event.touch % 3 == 1 else '',
                                           duration_sec=0.5 * event.duration_sec)
 
 
@@ -211,6 +212,7 @@ def pair_measures(topics, organ):
         lasting += stamps[-1] - seconds(begins[-1].header.stamp)
     grasps = [m for m in topics[NODE + '/grasps'] if m.organ == organ]
     return {'grasps': len([m for m in grasps if m.event == Grasp.GRASPED]) or None,
+            'grasps_let_go': len([m for m in grasps if m.event == Grasp.RELEASED and m.reason == '']) if grasps else None,
             'grasp_sec': sum(m.duration_sec for m in grasps if m.event == Grasp.RELEASED) or None,
             'answers': len(answers), 'not_ok_share': np.diff(stamps)[bad].sum() / (stamps[-1] - stamps[0]),
             'touches': len(begins), 'touch_sec': lasting,
