@@ -12,7 +12,7 @@ import threading
 from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
 import numpy as np
 from organ_collision import Organ
-from organ_collision.recordings import decode, seconds
+from organ_collision.recordings import decoder
 import rospy
 from std_msgs.msg import Header
 from tf2_msgs.msg import TFMessage
@@ -64,29 +64,31 @@ def carve(vertices, contacts):
 def sculpt(answers, frames):
     """Moves the ball and the clay in turn: the next step comes when the answer about this one is there."""
     vertices, faces = block()
-    clay, rate, tick, ticks = Organ('clay', vertices, faces), rospy.Rate(RATE), 0, int(RATE * rospy.get_param('~seconds', 12.0))
-    begin = rospy.get_time()
+    clay, tick, ticks = Organ('clay', vertices, faces), 0, int(RATE * rospy.get_param('~seconds', 12.0))
+    read = decoder('organ_collision/ContactArray', 'mesh_stamp status message contacts')
     while tick <= ticks and not rospy.is_shutdown():
         now = rospy.Time.now()
         frames.publish([TransformStamped(Header(0, now, 'clay'), 'ball', Transform(
             Vector3(*ball(tick / ticks)), Quaternion(0, 0, 0, 1)))])
         clay.move(vertices, now)
         try:
-            answer = None
-            while answer is None or abs(seconds(answer.mesh_stamp) - now.to_sec()) > 1e-6:  # It is about an earlier shape.
-                answer = decode('organ_collision/ContactArray', answers.get(timeout=PATIENCE))
+            stamp = ()
+            while stamp != [now.secs, now.nsecs]:  # It is about an earlier shape.
+                *stamp, status, message, contacts = read(answers.get(timeout=PATIENCE))
         except queue.Empty:
             rospy.logwarn_throttle(1, 'no answer about the clay')
             continue
-        if answer.status:
-            rospy.logwarn_throttle(1, answer.message)
+        if status:
+            rospy.logwarn_throttle(1, message)
             continue
-        if len(answer.contacts):
-            carve(vertices, answer.contacts)
+        if tick == 0:
+            begin = rospy.get_time()
+        if len(contacts):
+            carve(vertices, contacts)
         tick += 1
         rospy.loginfo_throttle(2, 'carved %.2f mm deep, at %.0f Hz' % (
             -1e3 * vertices[:TOP_VERTICES, 2].min(), tick / (rospy.get_time() - begin)))
-        rate.sleep()
+        rospy.sleep(begin + tick / RATE - rospy.get_time())  # A late step does not delay those after it: rospy.Rate would.
     if rospy.get_param('~save', '') and tick > ticks:
         np.savez(rospy.get_param('~save'), vertices=vertices, faces=faces)
 
