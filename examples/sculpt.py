@@ -52,7 +52,7 @@ def carve(vertices, contacts):
     contacts = contacts[contacts['touching'] & (contacts['depth'] > 0)]
     corners = contacts['vertices']
     a, b, c = (vertices[corners[:, i]] for i in range(3))
-    place = contacts['on_organ'] - a
+    place = np.stack([contacts['on_organ.' + axis] for axis in 'xyz'], axis=1) - a
     edges = np.stack([b - a, c - a], axis=2)
     weights = np.linalg.solve(edges.swapaxes(1, 2) @ edges, edges.swapaxes(1, 2) @ place[:, :, None])[:, :, 0]
     weights = np.clip(np.column_stack([1 - weights.sum(axis=1), weights]), 0, 1)
@@ -86,8 +86,9 @@ def sculpt(answers, frames):
         if len(contacts):
             carve(vertices, contacts)
         tick += 1
-        rospy.loginfo_throttle(2, 'carved %.2f mm deep, at %.0f Hz' % (
-            -1e3 * vertices[:TOP_VERTICES, 2].min(), tick / (rospy.get_time() - begin)))
+        if tick % (2 * RATE) == 0:
+            rospy.loginfo('carved %.2f mm deep, at %.0f Hz', -1e3 * vertices[:TOP_VERTICES, 2].min(),
+                          tick / (rospy.get_time() - begin))
         rospy.sleep(begin + tick / RATE - rospy.get_time())  # A late step does not delay those after it: rospy.Rate would.
     if rospy.get_param('~save', '') and tick > ticks:
         np.savez(rospy.get_param('~save'), vertices=vertices, faces=faces)

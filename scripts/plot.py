@@ -6,27 +6,13 @@ Each organ has a line, and its touches are bands. The distance needs a `margin` 
 """
 
 import argparse
-from collections import deque
 import sys
 
 import matplotlib
-import numpy as np
 from organ_collision.recordings import Listener
-from organ_collision.trial import Trial, TrialError
+from organ_collision.trial import Envelope, Trial, TrialError
 from organ_collision.trial_plots import draw
 import rospy
-
-
-class Latest(deque):
-    """A series, as an Envelope has it, of the latest values."""
-
-    width = 0.0
-
-    def add(self, *row):
-        self.append(row)
-
-    def points(self):
-        return np.array(self).reshape(-1, 3).T
 
 
 def show(figure, listener, tool, duration):
@@ -57,8 +43,7 @@ def main():
     figure = pyplot.figure(asked.tool, (9, 6), constrained_layout=True)
     if not asked.png and matplotlib.get_backend().lower() == 'agg':
         raise TrialError('there is no display, or no python3-tk; write a picture with --png FILE')
-    rospy.init_node('plot', anonymous=True, disable_signals=True)
-    listener = Listener(Trial(asked.node, series=lambda: Latest(maxlen=int(2000 * asked.seconds))))  # up to 2 kHz
+    listener = Listener(Trial(asked.node, series=lambda: Envelope(asked.seconds)), 'plot')
     if not asked.png:
         shown = animation.FuncAnimation(figure, lambda _: show(figure, listener, asked.tool, asked.seconds), interval=200,
                                         cache_frame_data=False)

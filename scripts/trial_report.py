@@ -194,9 +194,8 @@ def table(rows):
 
 
 def listen(duration, trial):
-    rospy.init_node('trial_report', anonymous=True, disable_signals=True)
+    listener = Listener(trial, 'trial_report')
     print('Listening for %g s, or until Ctrl-C' % duration, file=sys.stderr)
-    listener = Listener(trial)
     listener.listen(duration)
     rospy.signal_shutdown('the trial is over')
     listener.lock.acquire()  # Nothing comes any more.

@@ -20,7 +20,7 @@ import rospy
 LARGEST = 1 << 30  # [bytes] A longer record is none: the file is damaged there.
 _UINT32 = struct.Struct('<I')
 _MESSAGE, _BAG, _CHUNK, _CONNECTION = b'\x02', b'\x03', b'\x05', b'\x07'  # the kinds of records of a bag
-_CODES = {**SIMPLE_TYPES_DICT, 'bool': '?', 'time': '2I', 'duration': '2i'}  # of numbers, for struct and numpy
+_CODES = {**SIMPLE_TYPES_DICT, 'bool': '?', 'time': '2I', 'duration': '2i'}
 
 # A topic as one node publishes it. kind: the type of its messages, such as organ_collision/ContactArray.
 Connection = namedtuple('Connection', 'topic kind md5 node')
@@ -30,45 +30,31 @@ class BagError(RuntimeError):
     """The file is no bag that can be read."""
 
 
-@functools.lru_cache(maxsize=None)
-def _fields(of):
-    """The names and types of a message's fields."""
-    kind = genpy.message.get_message_class(of if '/' in of else 'std_msgs/' + of)  # std_msgs/Header is named Header.
-    return list(zip(kind.__slots__, kind._slot_types))
-
-
-@functools.lru_cache(maxsize=None)
-def _fixed(of):
-    """The numpy type of a type of fields that all have the same size; None if their sizes differ. Vectors of one
-    number type, such as geometry_msgs/Point, are rows; other messages are records."""
-    base, bracket, count = of.partition('[')
-    if bracket:
-        return np.dtype((_fixed(base), int(count[:-1]))) if count != ']' and _fixed(base) else None
-    if of in _CODES:
-        return np.dtype('<' + _CODES[of])
-    parts = [] if of == 'string' else [(name, _fixed(part)) for name, part in _fields(of)]
-    if not parts or any(part is None for _, part in parts):  # numpy takes None for a number type, too.
-        return None
-    is_row = len(parts) > 1 and {part for _, part in parts} == {np.dtype('<f8')}
-    return np.dtype(('<f8', len(parts)) if is_row else parts)
-
-
 def _leaves(of, name=''):
     """The fields of a type with those of its parts in their places: dotted names and types."""
     if of == 'string' or of in _CODES or of[-1] == ']':
         return [(name, of)]
-    return [leaf for part, kind in _fields(of) for leaf in _leaves(kind, (name + '.' + part).lstrip('.'))]
+    kind = genpy.message.get_message_class(of if '/' in of else 'std_msgs/' + of)  # std_msgs/Header is named Header.
+    return [leaf for part, inner in zip(kind.__slots__, kind._slot_types)
+            for leaf in _leaves(inner, (name + '.' + part).lstrip('.'))]
+
+
+def _code(of):
+    """The code of a number or of so many numbers, for struct and numpy. None for a string or a list of any length."""
+    base, _, count = of.partition('[')
+    return None if of == 'string' or count == ']' else count[:-1] + _CODES[base]
 
 
 def _list_reader(of, wanted):
     """A function that reads so many elements of a string or of a list without a fixed length. See _reader."""
-    part = None if of == 'string' else _fixed(of[:-2])
-    if of == 'string' and wanted:
+    columns = [('', 'S1')] if of == 'string' else [(name, _code(kind)) for name, kind in _leaves(of[:-2])]
+    part = np.dtype(columns) if all(code for _, code in columns) else None
+    if part and not wanted:
+        return lambda data, at, count: (None, at + count * part.itemsize)
+    if of == 'string':
         return lambda data, at, count: (str(data[at:at + count], 'utf-8', 'replace'), at + count)
-    if part and wanted:
+    if part:
         return lambda data, at, count: (np.frombuffer(data, part, count, at), at + count * part.itemsize)
-    if part or of == 'string':
-        return lambda data, at, count, size=part.itemsize if part else 1: (None, at + count * size)
     read = _reader(of[:-2], wanted)
 
     def read_list(data, at, count):
@@ -80,19 +66,17 @@ def _list_reader(of, wanted):
     return read_list
 
 
-@functools.lru_cache(maxsize=None)
 def _reader(of, wanted):
     """A function that reads what is wanted of a type at a place of the bytes. It returns the values, and the place behind."""
     steps, numbers = [], '<'
     for name, kind in _leaves(of):
         is_wanted = any((name + '.').startswith(one + '.') for one in wanted)
-        base, _, count = kind.partition('[')
-        if kind == 'string' or count == ']':
+        code = _code(kind)
+        if code is None:
             inner = ('',) if is_wanted else tuple(one[len(name) + 1:] for one in wanted if one.startswith(name + '.'))
             steps.append((struct.Struct(numbers + 'I'), _list_reader(kind, inner), bool(inner)))
             numbers = '<'
         else:
-            code = count[:-1] + _CODES[base]
             numbers += code if is_wanted else '%dx' % struct.calcsize('<' + code)
     last = struct.Struct(numbers)
 
@@ -113,8 +97,8 @@ def decoder(kind, wanted):
 
     kind    the type of the message, such as 'organ_collision/ContactArray'
     wanted  names such as 'header.stamp tool contacts.organ'. Times are two values (seconds, nanoseconds), parts such as
-            points the values of their fields. Lists are numpy arrays if their elements have a fixed size: contacts['depth']
-            of an answer has the shape (k,), and contacts['point'] (k, 3). Other lists are lists of such lists of values.
+            points the values of their fields. Lists are numpy arrays if their elements have a fixed size: of an answer,
+            contacts['depth'] and contacts['point.x'] have the shape (k,). Other lists are lists of such lists of values.
 
     The function raises ValueError or struct.error if the bytes are damaged."""
     read = _reader(kind, tuple(wanted.split()))
@@ -196,8 +180,10 @@ def _unpacked(header, data):
 class Listener:
     """Gives a Trial the messages of the running nodes. Hold `lock` while you read the trial."""
 
-    def __init__(self, trial):
+    def __init__(self, trial, name):
+        """Starts a node of this name, without rospy's handler of Ctrl-C."""
         self.trial, self.lock, self.fault, self._subscribers = trial, threading.Lock(), None, {}
+        rospy.init_node(name, anonymous=True, disable_signals=True)
 
     def look(self):
         """Subscribes to topics that are new. Call it now and then. Raises what the trial refused."""

@@ -64,16 +64,21 @@ class Clock:
 
 
 class Envelope:
-    """The least and the greatest value in each of at most 20000 equal times, of 2 ms at first."""
+    """The least and the greatest value in each of at most 20000 equal times, of 2 ms at first; or the latest of them.
 
-    def __init__(self):
-        self.width, self.bins = 0.002, {}
+    lasting  keep times of 2 ms, but only so many seconds; None: keep all, in coarser times
+    """
+
+    def __init__(self, lasting=None):
+        self.width, self.bins, self.lasting = 0.002, {}, lasting
 
     def add(self, time, low, high):
         key = int(time / self.width)
         old = self.bins.get(key, (low, high))
         self.bins[key] = (min(low, old[0]), max(high, old[1]))
-        if len(self.bins) > 20000:
+        while self.lasting and next(iter(self.bins)) < key - self.lasting / self.width:
+            del self.bins[next(iter(self.bins))]
+        if len(self.bins) > 20000 and not self.lasting:
             finer, self.bins, self.width = self.points().T, {}, 2 * self.width
             for time, low, high in finer.tolist():
                 self.add(time + self.width / 4, low, high)  # The middle of the finer time does not depend on rounding.
@@ -252,27 +257,35 @@ class Trial:
         values, kind = decoder(connection.kind, FIELDS[connection.kind])(data), connection.kind.split('/')[1]
         if kind == 'TFMessage':
             return self.transforms(*values, connection.topic.endswith('static'))
-        stamp, values = seconds(*values[:2]) or receipt, values[2:]
+        secs, nsecs, *values = values
+        stamp = seconds(secs, nsecs) or receipt
         if kind == 'PoseStamped':
             for tool in (tool for tool, tip in self.tips.items() if tip == connection.topic):
                 self.tools[tool].paths[connection.topic].add(stamp, lambda: values)
             return
-        at = {'ContactArray': 0, 'ProxyState': 0}.get(kind, 1)
-        about = (values[0], '') if kind == 'ProxyState' else (values[at + 1], values[at])
-        known = self.sources.setdefault((kind, *about), connection)
-        if known is not connection and known != connection:
-            raise TrialError('%s about %s from two nodes: %s from %s and %s from %s; choose with --node' % (
-                kind, ' and '.join(filter(None, about)), known.topic, known.node or '?', connection.topic,
-                connection.node or '?'))
         if kind == 'ProxyState':
+            self.check(connection, values[0])
             self.state(stamp, *values)
         elif kind == 'ContactArray':
-            self.tools[about[0]].links = values[2]
-            self.pair(*about).answer(stamp, *values[3:])
-        elif kind == 'TouchEvent':
-            self.pair(*about).event(stamp, values[0], *values[3:])
+            organ, tool, links, *values = values
+            self.check(connection, tool, organ)
+            self.tools[tool].links = links
+            self.pair(tool, organ).answer(stamp, *values)
         else:
-            self.pair(*about).grasps.append((values[0], *values[3:]))
+            event, organ, tool, *values = values
+            self.check(connection, tool, organ)
+            if kind == 'TouchEvent':
+                self.pair(tool, organ).event(stamp, event, *values)
+            else:
+                self.pair(tool, organ).grasps.append((event, *values))
+
+    def check(self, connection, *about):
+        """Raises TrialError if another node has sent such a message about the same tool, or tool and organ."""
+        known = self.sources.setdefault((connection.kind, *about), connection)
+        if known is not connection and known != connection:
+            raise TrialError('%s about %s from two nodes: %s from %s and %s from %s; choose with --node' % (
+                connection.kind.split('/')[1], ' and '.join(about), known.topic, known.node or '?', connection.topic,
+                connection.node or '?'))
 
     def pair(self, *names):
         if names not in self.pairs:

@@ -21,7 +21,7 @@ from geometry_msgs.msg import Point, Quaternion, Transform, TransformStamped, Ve
 import numpy as np
 from organ_collision.msg import Clearance, Contact, ContactArray, Grasp, ProxyContact, ProxyState, TouchEvent
 from organ_collision.recordings import BagError, Connection
-from organ_collision.trial import Trial, TrialError
+from organ_collision.trial import Envelope, Trial, TrialError
 from PyKDL import Frame, Rotation, Vector
 import rosbag
 from std_msgs.msg import Header, String
@@ -490,6 +490,14 @@ class TrialTest(unittest.TestCase):
         self.assertAlmostEqual(path.path_sec, 3.0, delta=0.05)
         length = sum(np.linalg.norm(tip(t + 0.01) - tip(t)) for t in np.arange(0, 2.99, 0.01))
         self.assertAlmostEqual(path.path, length, delta=0.01 * length)
+
+    def test_an_envelope_of_the_latest_seconds(self):
+        series, values = Envelope(lasting=1.0), np.random.default_rng(5).uniform(size=5000)
+        for number, value in enumerate(values):
+            series.add(0.001 * number + 0.0005, value, value)
+        times, low, high = series.points()
+        np.testing.assert_allclose((times[0], times[-1]), (3.998, 4.998))
+        np.testing.assert_array_equal((low, high), (values[3998:].reshape(-1, 2).min(axis=1), values[3998:].reshape(-1, 2).max(axis=1)))
 
     def test_two_nodes_with_an_organ_each_are_one_trial(self):
         def shared(topic, message, t):
