@@ -135,7 +135,8 @@ class Report:
 
     def pair_rows(self):
         for (name, organ), pair in sorted(self.trial.pairs.items()):
-            tool, path, ends = self.trial.tools[name], self.paths[name], [rest for event, *rest in pair.grasps if event == Grasp.RELEASED]
+            tool, path = self.trial.tools[name], self.paths[name]
+            ends = [rest for event, *rest in pair.grasps if event == Grasp.RELEASED]
             has_touches = pair.touches or pair.statuses and pair.deepest is None
             yield {'tool': name, 'organ': organ, 'answers': sum(pair.statuses.values()),
                    'not_ok_share': pair.clock.unknown_share(self.end), 'path_incomplete': pair.incomplete,

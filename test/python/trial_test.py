@@ -497,7 +497,8 @@ class TrialTest(unittest.TestCase):
             series.add(0.001 * number + 0.0005, value, value)
         times, low, high = series.points()
         np.testing.assert_allclose((times[0], times[-1]), (3.998, 4.998))
-        np.testing.assert_array_equal((low, high), (values[3998:].reshape(-1, 2).min(axis=1), values[3998:].reshape(-1, 2).max(axis=1)))
+        pairs = values[3998:].reshape(-1, 2)
+        np.testing.assert_array_equal((low, high), (pairs.min(axis=1), pairs.max(axis=1)))
 
     def test_two_nodes_with_an_organ_each_are_one_trial(self):
         def shared(topic, message, t):
