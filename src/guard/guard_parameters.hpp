@@ -7,11 +7,10 @@
 #include <vector>
 
 #include "common/parameters/parameter_table.hpp"
+#include "organ_collision/ros/names.hpp"
 
 namespace organ_collision {
 
-/// The name of a tool's shaft in the parameter touch_allowed.
-inline constexpr char kShaftName[] = "shaft";
 inline constexpr double kHighestLatency = 2.0;  ///< [s] that is legal
 
 /// The parameters of tool_guard, with the documented defaults.

@@ -27,7 +27,7 @@ GuardState nothing_known(ros::Time now) {
 }
 
 std::string link_name(const ContactArray& answer, int link) {
-  if (link < 0) return kShaftName;
+  if (link < 0) return names::kShaftName;
   const auto i = static_cast<std::size_t>(link);
   return i < answer.links.size() ? answer.links[i] : "link " + std::to_string(link);
 }

@@ -195,7 +195,7 @@ class GuardNode {
 
   /// Throws ParameterError if the guard cannot watch the tools.
   void check(const std::vector<ToolInfo>& tools, bool has_placement) {
-    std::vector<std::string> names, links{kShaftName};
+    std::vector<std::string> names, links{names::kShaftName};
     for (const ToolInfo& tool : tools) {
       names.push_back(tool.name);
       links.insert(links.end(), tool.links.begin(), tool.links.end());

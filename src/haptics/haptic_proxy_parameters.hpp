@@ -1,9 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "common/messages/text.hpp"
 #include "node/parameters/node_parameters.hpp"
 #include "organ_collision/query/haptic_proxy.hpp"
 #include "organ_collision/ros/names.hpp"
@@ -21,6 +25,15 @@ inline constexpr char kFrameTimeoutSec[] = "frame_timeout_sec";
 
 namespace organ_collision {
 
+/// [m] The legal clearances of an organ and a link.
+inline constexpr double kLeastClearance = 1e-5, kLargestClearance = 0.1;
+
+/// An entry of the parameter `clearance`.
+struct ClearanceEntry {
+  std::string organ, link;  ///< empty: any
+  double value = 0.0;       ///< [m]; 0: the organ does not hold the link
+};
+
 /// The parameters of haptic_proxy, with the documented defaults. This node does not read
 /// `markers.markers_depth`.
 struct HapticProxyParameters : OrganNodeParameters {
@@ -30,7 +43,10 @@ struct HapticProxyParameters : OrganNodeParameters {
   double max_force = 3.0;    ///< [N] larger forces are scaled down to it
   double max_torque = 0.1;   ///< [N m] about a free tool's centre; larger ones shrink
   double max_force_rate = 0.0, max_torque_rate = 0.0;  ///< [N/s], [N m/s]; 0: see wrench_limits()
-  double clearance = ProxySettings().clearance;        ///< [m]
+  double clearance = ProxySettings().clearance;        ///< [m] where no entry says otherwise
+  std::vector<ClearanceEntry> clearances;              ///< with an organ, a link, or both
+  double clearance_speed = 0.05;                       ///< [m/s]
+  bool guard_lag = false;                              ///< see guard_lag() in proxy_scene.hpp
   double row_reach = 0.02;                             ///< ProxySettings::row_reach
   bool hand_rows = ProxySettings().hand_rows;
   double jump = ProxySettings().jump;  ///< [m]
@@ -54,6 +70,54 @@ inline WrenchLimits wrench_limits(const HapticProxyParameters& parameters) {
   return {parameters.max_force, parameters.max_torque,
           rate(parameters.max_force_rate, parameters.max_force, defaults.max_force),
           rate(parameters.max_torque_rate, parameters.max_torque, defaults.max_torque)};
+}
+
+/// [m] The clearance of a link, or of names::kShaftName, from an organ: of the entries with both
+/// names, or else of those with the organ, or else of those with the link, the largest one.
+inline double clearance_of(const HapticProxyParameters& parameters, const std::string& organ,
+                           const std::string& link) {
+  std::pair<int, double> best{0, parameters.clearance};
+  for (const ClearanceEntry& entry : parameters.clearances) {
+    const bool has_organ = !entry.organ.empty(), has_link = !entry.link.empty();
+    if ((has_organ && entry.organ != organ) || (has_link && entry.link != link)) continue;
+    best = std::max(best, std::pair((has_organ ? 2 : 0) + (has_link ? 1 : 0), entry.value));
+  }
+  return best.second;
+}
+
+/// Reads the parameter `clearance` if it is a list. Otherwise, there are no entries. Throws
+/// ParameterError, and then changes nothing.
+inline void read_clearances(const ParameterGroup& all, HapticProxyParameters& p) {
+  HapticProxyParameters read;
+  std::vector<std::string> unknown, links{names::kShaftName};
+  if (!all.has_list("clearance")) return p.clearances.clear();
+  for (const ToolParameters& tool : parse_tools(all, unknown)) {
+    links.insert(links.end(), tool.links.begin(), tool.links.end());
+  }
+  unknown.clear();
+  double fallback = 0.0;
+  for (const ParameterGroup& entry : all.groups("clearance", "groups of organ, link and value",
+                                                {"organ", "link", "value", "ignored"}, unknown)) {
+    ClearanceEntry of;
+    if (entry.has("organ")) of.organ = entry.text("organ");
+    if (entry.has("link")) of.link = entry.text("link");
+    if (!of.link.empty() && std::count(links.begin(), links.end(), of.link) == 0) {
+      entry.refuse("link", "must be a link of a tool; " + suggestion(of.link, links));
+    }
+    const bool has_both = !of.organ.empty() && !of.link.empty();
+    const bool is_ignored = entry.flag("ignored", false);
+    if (is_ignored && !has_both) entry.refuse("ignored", "must be false without organ and link");
+    if (is_ignored && entry.has("value")) entry.refuse("value", "must be left out if ignored");
+    if (!is_ignored) of.value = entry.number("value", {}, {kLeastClearance, kLargestClearance});
+    if (of.organ.empty() && of.link.empty()) {
+      fallback = std::max(fallback, of.value);
+    } else {
+      read.clearances.push_back(of);
+    }
+  }
+  for (const std::string& sentence : unknown) throw ParameterError(sentence);
+  p.clearances = std::move(read.clearances);
+  p.clearance = fallback > 0.0 ? fallback : read.clearance;
 }
 
 inline ParameterTable table_of(HapticProxyParameters& p) {
@@ -106,7 +170,21 @@ inline ParameterTable table_of(HapticProxyParameters& p) {
            "[N m/s] the torque on a free tool about its centre changes by no more than this, "
            "likewise. 0: from 0 to max_torque in 10 ms, and 10 N m/s if max_torque is .inf")
       .live();
-  t.number("clearance", p.clearance, {0.0, 0.1, false}, "[m] the proxy stops this far from tissue")
+  t.number("clearance", p.clearance, {0.0, kLargestClearance, false},
+           "[m] the proxy stops this far from tissue. Or a list, whose entries have value (1e-5 to "
+           "0.1), and organ, link or both (shaft: the tool's shaft): an entry with both wins over "
+           "one with the organ, and this one over one with the link; of equal ones, the larger "
+           "value wins. Neither: the default of all. With `ignored: true` instead of a value, and "
+           "both names, the organ does not hold the link. reload_tools reads a new list; a new "
+           "number replaces the list")
+      .live()
+      .or_list([&p](const ParameterGroup& all) { read_clearances(all, p); });
+  t.number("clearance_speed", p.clearance_speed, {0.0, 10.0, false},
+           "[m/s] at which clearances rise while the node runs. They fall at once")
+      .live();
+  t.flag("guard_lag", p.guard_lag,
+         "true: where tissue comes towards a tool, the clearance grows by its velocity times the "
+         "age of the shape, as shown. Tools in lockstep do not need it")
       .live();
   t.number(
        "row_reach", p.row_reach, {0.0, 1.0},

@@ -25,6 +25,7 @@ void OrganInterpolation::update(const OrganRegistry& organs, Time now) {
                                way.to->topology() == latest->topology() &&
                                way.to->same_faces(*latest) && latest->vertex_count() <= kLargest;
     const std::chrono::duration<double> since = std::min<Time::duration>(now - way.start, kLongest);
+    way.late = is_comparable ? way.late_at(now) + organ.latest().motion_sec : 0.0;
     way.from = is_comparable ? shape_on(way, now) : latest;
     way.seconds = is_comparable ? since.count() : 0.0;
     way.to = latest;
@@ -37,6 +38,11 @@ std::shared_ptr<const TriangleMesh> OrganInterpolation::shape(const DeformableOr
                                                               Time now) {
   const auto way = ways_.find(organ.name());
   return way == ways_.end() ? organ.latest().mesh : shape_on(way->second, now);
+}
+
+double OrganInterpolation::late(const DeformableOrgan& organ, Time now) const {
+  const auto way = ways_.find(organ.name());
+  return way == ways_.end() ? 0.0 : way->second.late_at(now);
 }
 
 bool OrganInterpolation::is_moving(Time now) const {

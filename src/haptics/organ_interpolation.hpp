@@ -29,6 +29,8 @@ class OrganInterpolation {
   void update(const OrganRegistry& organs, Time now);
   /// The shape of an organ at `now`.
   std::shared_ptr<const TriangleMesh> shape(const DeformableOrgan& organ, Time now);
+  /// [s] How old the shape at `now` is, seen from the stamp of the latest one.
+  double late(const DeformableOrgan& organ, Time now) const;
   /// Whether a shape is on its way.
   bool is_moving(Time now) const;
 
@@ -38,7 +40,10 @@ class OrganInterpolation {
     Time start{};          ///< when the shape `to` came
     double seconds = 0.0;  ///< how long the way takes; 0: the organ rests
 
+    double late = 0.0;  ///< [s] how long `from` was before `to`, by their stamps
+
     double share(Time now) const;
+    double late_at(Time now) const { return (1.0 - share(now)) * late; }
   };
 
   static std::shared_ptr<const TriangleMesh> shape_on(const Way& way, Time now);

@@ -48,7 +48,7 @@ ProxyContact place_at(const ProxyReport& report, const ProxyFace& at, const Vect
   place.point = tf2::toMsg(at.contact.point);
   place.normal = to_vector(at.contact.normal);
   place.distance = -at.contact.depth;
-  place.clearance = report.clearance;
+  place.clearance = at.clearance;
   place.velocity = to_vector(tissue_velocity(*report.scene, at.organ, at.contact));
   place.force = to_vector(force);
   return place;

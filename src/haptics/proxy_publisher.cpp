@@ -5,6 +5,7 @@
 #include <tf2_eigen/tf2_eigen.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <iterator>
 
 #include "common/messages/conversions.hpp"
@@ -60,6 +61,9 @@ ProxyState state_of(const ProxyReport& report) {
     state.state = static_cast<std::uint8_t>(report.answer->state);
     state.placed_anew = report.answer->is_placed_anew;
     state.pull = to_vector(report.answer->pull);
+    for (const TissueMotion& motion : report.scene->motions) {
+      state.lag_sec = std::max(state.lag_sec, motion.lag_sec);
+    }
     state.contacts = places_of(report, report.answer->contacts);
     state.hand_contacts = places_of(report, report.answer->hand_contacts);
   }

@@ -57,6 +57,26 @@ Vector3d tissue_velocity(const ProxyScene& scene, std::size_t organ, const FaceC
   return velocity;
 }
 
+void guard_lag(const ProxyScene& scene, std::size_t organ, ProxyOrgan& guarded) {
+  constexpr double kMostAdvance = 0.02;  // [m] The search goes so far beyond the clearance.
+  const TissueMotion& motion = scene.motions[organ];
+  if (motion.lag_sec == 0.0 || (!motion.shape_before && !motion.T_before)) return;
+  guarded.advance = [&scene, organ](const FaceContact& contact) {
+    return -scene.motions[organ].lag_sec *
+           contact.normal.dot(tissue_velocity(scene, organ, contact));
+  };
+  guarded.most_advance = kMostAdvance;
+  if (motion.T_before) return;
+  const auto vertices = [](const TriangleMesh& mesh) {
+    return Eigen::Map<const Eigen::ArrayXf>(mesh.vertices().data(),
+                                            static_cast<Eigen::Index>(mesh.vertices().size()));
+  };
+  const double step =  // [m] No vertex has moved farther.
+      std::sqrt(3.0) *
+      (vertices(*motion.shape_after) - vertices(*motion.shape_before)).abs().maxCoeff();
+  guarded.most_advance = std::min(kMostAdvance, step * motion.lag_sec / motion.shape_sec);
+}
+
 TissuePush tissue_push(const ProxyScene& scene, const std::vector<ProxyOrgan>& before,
                        const ProxyAnswer& answer, bool has_levers) {
   TissuePush push;

@@ -40,6 +40,7 @@ struct TissueMotion {
   std::shared_ptr<const TriangleMesh> shape_before = nullptr, shape_after = nullptr;
   double shape_sec = 0.0;                          ///< [s] between both shapes
   ros::Time stamp = {};                            ///< of the shape that the organ has in the scene
+  double lag_sec = 0.0;                            ///< [s] how old this shape is
   std::optional<Eigen::Isometry3d> T_before = {};  ///< T_organ_proxy kVelocitySec ago; empty: rests
 };
 
@@ -57,6 +58,10 @@ struct ProxyScene {
 /// of the organ number `organ` of the scene, in the proxy's frame.
 Eigen::Vector3d tissue_velocity(const ProxyScene& scene, std::size_t organ,
                                 const FaceContact& contact);
+
+/// Sets ProxyOrgan::advance of an organ of the scene: the speed at which the tissue comes towards
+/// the tool times TissueMotion::lag_sec. `advance` refers to the scene.
+void guard_lag(const ProxyScene& scene, std::size_t organ, ProxyOrgan& guarded);
 
 /// What tissue does to a proxy that it holds: the mean over all places that bear a load, along
 /// these loads and weighted by them. In the proxy's frame, at the centre or the tip of the tool.

@@ -77,8 +77,9 @@ void HapticProxyNode::follow_hand(std::size_t tool, Time now) {
 }
 
 /// The organs at `now`, with the sides to which the user keeps tools. `awaited`: of a tool in
-/// lockstep. Its organs are not interpolated, and are where they were at the stamp of the shape.
-/// Their frames may have any age, because a simulator in lockstep may be slow. Throws Rejection.
+/// lockstep. Its organs are not late, not interpolated, and are where they were at the stamp of the
+/// shape. Their frames may have any age, because a simulator in lockstep may be slow. Throws
+/// Rejection.
 ProxyScene HapticProxyNode::scene_of(const AwaitedShape* awaited, Time now) {
   const auto shape_of = [&](const DeformableOrgan& organ) -> Timed<SharedShape> {
     const OrganShape& latest = organ.latest();
@@ -94,6 +95,11 @@ ProxyScene HapticProxyNode::scene_of(const AwaitedShape* awaited, Time now) {
   for (std::size_t i = 0; i < scene.organs.size(); ++i) {
     const auto kept = parameters_.keep.find(scene.sources[i]->name());
     if (kept != parameters_.keep.end()) scene.organs[i].keep = kept->second;
+    if (awaited) continue;
+    const ros::Time stamp = scene.motions[i].stamp, received = scene.sources[i]->latest().received;
+    double& lag = scene.motions[i].lag_sec;
+    lag = std::max(0.0, ros::Time::now().toSec() - (stamp.isZero() ? received : stamp).toSec());
+    if (parameters_.organ_interpolation) lag += shapes_.late(*scene.sources[i], now);
   }
   return scene;
 }

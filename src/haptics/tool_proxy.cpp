@@ -3,6 +3,7 @@
 #include <organ_collision/ContactArray.h>
 #include <tf2_eigen/tf2_eigen.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -58,17 +59,44 @@ ToolProxy::ToolProxy(const Tool& tool, const HapticProxyParameters& parameters)
     : tool_(tool.parameters),
       parameters_(parameters),
       proxy_({tool_.radius, tool.links, tool_.freedom}, proxy_settings(parameters, tool.parameters),
-             parameters.picker) {}
+             parameters.picker),
+      parts_{names::kShaftName} {
+  for (const Link& link : tool.links) parts_.push_back(link.name);
+}
+
+/// The organs of the scene, with their present clearances. A clearance falls at once. It rises at
+/// clearance_speed, and by at most a half in a tick, so that the proxy is not squeezed.
+std::vector<ProxyOrgan> ToolProxy::organs_of(const ProxyScene& scene, Time now) {
+  const std::chrono::duration<double> passed = now - std::exchange(followed_, now);
+  std::vector<ProxyOrgan> organs = scene.organs;
+  for (std::size_t i = 0; i < organs.size(); ++i) {
+    const auto last = std::find_if(organs_.begin(), organs_.end(),
+                                   [&](const auto& organ) { return organ.name == organs[i].name; });
+    for (std::size_t part = 0; part < parts_.size(); ++part) {
+      double clearance = clearance_of(parameters_, scene.sources[i]->name(), parts_[part]);
+      if (last != organs_.end()) {
+        const double before = last->clearances[part];
+        const double rise = std::min(parameters_.clearance_speed * passed.count(), 0.5 * before);
+        clearance = std::min(clearance, std::max(kLeastClearance, before + rise));
+      }
+      organs[i].clearances.push_back(clearance);
+    }
+    if (parameters_.guard_lag) guard_lag(scene, i, organs[i]);
+  }
+  return organs;
+}
 
 ProxyReport ToolProxy::follow(const Timed<ToolPose>& hand, const ProxyScene& scene, Time now) {
   const auto start = std::chrono::steady_clock::now();
-  const ProxyAnswer& answer = proxy_.follow(hand.value, scene.organs);
+  std::vector<ProxyOrgan> organs = organs_of(scene, now);
+  const ProxyAnswer& answer = proxy_.follow(hand.value, organs);
   const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
   if (answer.state == ProxyStatus::kNoAnswer) {
     throw Rejection(ContactArray::INVALID_REQUEST, "no proxy", answer.message);
   }
   const ros::Time stamp = hand.stamp.isZero() ? ros::Time::now() : hand.stamp;
   std::vector<OrganForce> target = forces(answer, scene, damping(answer, scene, stamp));
+  organs_ = std::move(organs);
   is_lost_ = false;
   hand_ = hand.value;
   answer_ = &answer;
@@ -78,7 +106,6 @@ ProxyReport ToolProxy::follow(const Timed<ToolPose>& hand, const ProxyScene& sce
   ProxyReport report{tool_, frame_, stamp, ContactArray::OK, answer.message, hand_, held_};
   report.answer = &answer;
   report.scene = &scene;
-  report.clearance = parameters_.clearance;
   report.tick_sec = passed.count();
   set_forces(report, std::move(target), now);
   return report;
@@ -130,7 +157,6 @@ Vector3d ToolProxy::damping(const ProxyAnswer& answer, const ProxyScene& scene, 
   // Tissue that comes in shapes moves the proxy by jumps. Its velocity counts instead of its way.
   const bool has_levers = tool_.freedom == ProxyFreedom::kTrocar;
   const TissuePush push = tissue_push(scene, organs_, answer, has_levers);
-  organs_ = scene.organs;
   pushed_ += push.way;
   // Where a needle pierces a face, the pull falls at once. Where tissue jumps onto a free proxy,
   // only a part of its way moves the proxy.

@@ -36,8 +36,7 @@ struct ProxyReport {
   bool is_fading = false;  ///< the forces are on their way to those of this state
   /// The parameter whose limit reduced the forces. Null: no limit reduced them.
   const char* clipped_by = nullptr;
-  double clearance = 0.0;  ///< [m] that the proxy keeps
-  double tick_sec = 0.0;   ///< [s] how long HapticProxy::follow() took
+  double tick_sec = 0.0;  ///< [s] how long HapticProxy::follow() took
   /// The pose of the tool's tip frame (tip_frame_of()) in `frame`. Empty: it was never known.
   std::optional<Eigen::Isometry3d> tip_frame = {};
   /// The organ whose shape this answers, if the tool is in lockstep. Empty: all organs.
@@ -124,6 +123,7 @@ class ToolProxy {
   ProxySettings settings() const;
   std::vector<OrganForce> forces(const ProxyAnswer& answer, const ProxyScene& scene,
                                  const Eigen::Vector3d& damping_force) const;
+  std::vector<ProxyOrgan> organs_of(const ProxyScene& scene, Time now);
   Eigen::Vector3d damping(const ProxyAnswer& answer, const ProxyScene& scene, ros::Time stamp);
   void set_forces(ProxyReport& report, std::vector<OrganForce> target, Time now);
 
@@ -139,8 +139,10 @@ class ToolProxy {
   std::optional<ToolPose> hand_, held_;  ///< the last poses of the hand and the proxy
   std::optional<Eigen::Isometry3d> tip_frame_;        ///< ProxyReport::tip_frame
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();  ///< [m] of the tool in hand_
+  std::vector<std::string> parts_;  ///< names::kShaftName, and the names of the links
+  std::vector<ProxyOrgan> organs_;  ///< at the last tick, with the clearances
+  Time followed_{};                 ///< when the last tick was
   PullVelocity velocity_;           ///< of the proxy relative to the hand, in resting tissue
-  std::vector<ProxyOrgan> organs_;  ///< at the last tick
   Eigen::Vector3d pushed_ = Eigen::Vector3d::Zero();  ///< [m] sum of TissuePush::way
   bool is_held_ = false;       ///< whether tissue held the proxy at the last tick
   std::size_t crossings_ = 0;  ///< how many faces the proxy had pierced at the last tick

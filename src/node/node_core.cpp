@@ -184,7 +184,8 @@ void NodeCore::end_threads() {
 /// Runs in the background thread, because robots' files may take seconds to load.
 void NodeCore::reload(std_srvs::Trigger::Response& response) {
   try {
-    const ParameterGroup all = table_.group(all_parameters(private_node_));
+    const XmlRpc::XmlRpcValue values = all_parameters(private_node_);
+    const ParameterGroup all = table_.group(values);
     std::vector<std::string> misspelt = all.misspelt();
     std::vector<ToolParameters> parameters = parse_tools(all, misspelt);
     std::vector<Tool> tools = load_tools(parameters, private_node_);
@@ -194,7 +195,11 @@ void NodeCore::reload(std_srvs::Trigger::Response& response) {
       if (is_refused) throw ToolError(tools[tool].fault);
     }
     running_->release_tools(changes.kept);
-    in_node_thread([&] { exchange_tools(tools, parameters, misspelt, changes.kept); });
+    in_node_thread([&] {
+      const bool changes_lists = table_.read_lists(values);
+      exchange_tools(tools, parameters, misspelt, changes.kept);
+      if (changes_lists) running_->parameters_changed();
+    });
     response.success = true;
     response.message = plain_text(changes.summary, kLongestMessage);
     ROS_INFO("tools are reloaded: %s", response.message.c_str());

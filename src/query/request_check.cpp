@@ -191,7 +191,7 @@ void check_hand(const ProxyTool& tool, const ToolPose& hand) {
   check_links(tool.links, hand.links, "the hand's pose");
 }
 
-void check_organs(const std::vector<ProxyOrgan>& organs) {
+void check_organs(const ProxyTool& tool, const std::vector<ProxyOrgan>& organs) {
   for (const ProxyOrgan& organ : organs) {
     require(organ.shape != nullptr, "organ '", organ.name, "' has no shape");
     const Eigen::Matrix3d turned = organ.T_organ_proxy.linear();
@@ -201,6 +201,15 @@ void check_organs(const std::vector<ProxyOrgan>& organs) {
             "' has a pose that is not finite, or whose linear part is not a rotation");
     require(organ.keep != Side::kOnSurface, "organ '", organ.name,
             "' is to keep a proxy on its surface; legal are the outside, the inside and unknown");
+    const std::size_t parts = 1 + tool.links.size(), count = organ.clearances.size();
+    require(count == 0 || count == parts, "organ '", organ.name, "' has ", count,
+            " clearances; it must have none, or one of the shaft and one of each link: ", parts);
+    for (const double clearance : organ.clearances) {
+      require(clearance >= 0.0 && std::isfinite(clearance), "a clearance of organ '", organ.name,
+              "' is ", clearance, " m; it must be >= 0 and finite");
+    }
+    require(organ.most_advance >= 0.0 && std::isfinite(organ.most_advance), "organ '", organ.name,
+            "' has advanced by ", organ.most_advance, " m at most; it must be >= 0 and finite");
     const auto same_name =
         std::count_if(organs.begin(), organs.end(),
                       [&](const ProxyOrgan& other) { return other.name == organ.name; });

@@ -24,6 +24,6 @@ ViewingVolume paper_volume(const CollisionRequest& request);
 void check_tool(const ProxyTool& tool);
 void check_settings(const ProxyTool& tool, const ProxySettings& settings);
 void check_hand(const ProxyTool& tool, const ToolPose& hand);
-void check_organs(const std::vector<ProxyOrgan>& organs);
+void check_organs(const ProxyTool& tool, const std::vector<ProxyOrgan>& organs);
 
 }  // namespace organ_collision

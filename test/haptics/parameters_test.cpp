@@ -2,6 +2,7 @@
 #include "adapters/mesh_adapter_parameters.hpp"
 #include "haptics/haptic_proxy_parameters.hpp"
 #include "test/node/parameters/parameter_tables.hpp"
+#include "test/proof/trials.hpp"
 
 namespace organ_collision {
 
@@ -142,6 +143,118 @@ TEST(HapticParameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
     expect_words(refusal, {std::string("~organs[1]/") + row.name});
     expect_words(refusal, row.words);
   }
+}
+
+XmlRpcValue clearance(const char* organ, const char* link, double value) {
+  XmlRpcValue entry;
+  entry.begin();  // Makes it an empty group.
+  if (*organ) entry["organ"] = organ;
+  if (*link) entry["link"] = link;
+  if (value > 0.0) entry["value"] = value;
+  if (value == 0.0) entry["ignored"] = true;
+  return entry;
+}
+
+/// The parameters of a shaft with two links, and of a tool without links.
+XmlRpcValue with_clearances() {
+  XmlRpcValue all = legal_parameters<HapticProxyParameters>();
+  all["tools"][1]["name"] = "grasper";
+  all["tools"][1]["links"][0] = "wrist";
+  all["tools"][1]["links"][1] = "jaw";
+  return all;
+}
+
+/// Of all entries that match, in the words of the reference.
+double expected_clearance(const std::vector<ClearanceEntry>& entries, const std::string& organ,
+                          const std::string& link) {
+  const std::pair<std::string, std::string> ranks[] = {{organ, link}, {organ, ""}, {"", link}};
+  for (const auto& [of_organ, of_link] : ranks) {
+    double largest = -1.0;
+    for (const ClearanceEntry& entry : entries) {
+      if (entry.organ != of_organ || entry.link != of_link) continue;
+      largest = std::max(largest, entry.value);
+    }
+    if (largest >= 0.0) return largest;
+  }
+  double fallback = 0.0;
+  for (const ClearanceEntry& entry : entries) {
+    if (entry.organ.empty() && entry.link.empty()) fallback = std::max(fallback, entry.value);
+  }
+  return fallback > 0.0 ? fallback : ProxySettings().clearance;
+}
+
+TEST(HapticParameters, AClearanceIsThatOfTheMostExactEntry) {
+  const std::vector<std::string> organs = {"liver", "colon", "bladder"};
+  const std::vector<std::string> links = {"shaft", "wrist", "jaw"};
+  oracle::Random random(5);
+  for (int trial = 0; trial < 300; ++trial) {
+    XmlRpcValue all = with_clearances();
+    std::vector<ClearanceEntry> entries;
+    all["clearance"].setSize(0);
+    for (int i = random.integer(0, 8); i > 0; --i) {
+      ClearanceEntry entry;
+      if (random.chance(0.6)) entry.organ = organs[static_cast<std::size_t>(random.integer(0, 1))];
+      if (random.chance(0.6)) entry.link = links[static_cast<std::size_t>(random.integer(0, 2))];
+      const bool is_ignored = !entry.organ.empty() && !entry.link.empty() && random.chance(0.3);
+      entry.value = is_ignored ? 0.0 : 1e-4 * random.integer(1, 5);
+      all["clearance"][static_cast<int>(entries.size())] =
+          clearance(entry.organ.c_str(), entry.link.c_str(), entry.value);
+      entries.push_back(entry);
+    }
+    const auto p = parse_parameters<HapticProxyParameters>(all);
+    for (const std::string& organ : organs) {
+      for (const std::string& link : links) {
+        EXPECT_EQ(clearance_of(p, organ, link), expected_clearance(entries, organ, link)) << trial;
+      }
+    }
+  }
+}
+
+TEST(HapticParameters, IllegalEntriesOfClearanceAreNamed) {
+  const auto refusal = [](const XmlRpcValue& entry) {
+    XmlRpcValue all = with_clearances();
+    all["clearance"][0] = clearance("liver", "", 2e-3);
+    all["clearance"][1] = entry;
+    return refusal_by<ParameterError>([&] { parse_parameters<HapticProxyParameters>(all); });
+  };
+  EXPECT_EQ(refusal(clearance("liver", "shaft", 1e-5)), "accepted");
+  EXPECT_EQ(refusal(clearance("liver", "jaws", 1e-3)),
+            "~clearance[1]/link is 'jaws'; must be a link of a tool; nearest is 'jaw', legal are "
+            "shaft, wrist, jaw");
+  expect_words(refusal(clearance("liver", "jaw", 9e-6)),
+               {"~clearance[1]/value is '9e-06'; must be a number, 1e-05 to 0.1"});
+  expect_words(refusal(clearance("", "jaw", -1.0)), {"~clearance[1]/value is missing"});
+  expect_words(refusal(clearance("", "jaw", 0.0)), {"~clearance[1]/ignored is '1'", "organ"});
+  expect_words(refusal(clearance("", "", 0.0)), {"~clearance[1]/ignored", "organ and link"});
+  XmlRpcValue entry = clearance("liver", "jaw", 1e-3);
+  entry["ignored"] = true;
+  expect_words(refusal(entry), {"~clearance[1]/value", "left out"});
+  entry = clearance("liver", "jaw", 1e-3);
+  entry["organs"] = "liver";
+  expect_words(refusal(entry), {"~clearance[1]/organs is no parameter", "'organ'"});
+}
+
+TEST(HapticParameters, AListOfClearancesStaysUntilAnotherOneOrANumberComes) {
+  XmlRpcValue all = with_clearances();
+  all["clearance"][0] = clearance("liver", "jaw", 2e-3);
+  all["clearance"][1] = clearance("", "", 5e-4);
+  auto p = parse_parameters<HapticProxyParameters>(all);
+  const ParameterTable table = table_of(p);
+  XmlRpcValue change;
+  change["stiffness"] = 100.0;
+  change["clearance"] = 5e-4;  // as it is
+  table.change(change);
+  EXPECT_EQ(clearance_of(p, "liver", "jaw"), 2e-3);
+  all["clearance"][0]["value"] = 3e-3;
+  EXPECT_TRUE(table.read_lists(all));
+  EXPECT_EQ(clearance_of(p, "liver", "jaw"), 3e-3);
+  all["clearance"][0]["link"] = "jaws";
+  EXPECT_THROW(table.read_lists(all), ParameterError);
+  EXPECT_EQ(clearance_of(p, "liver", "jaw"), 3e-3);
+  EXPECT_EQ(clearance_of(p, "liver", "wrist"), 5e-4);
+  change["clearance"] = 7e-4;
+  table.change(change);
+  EXPECT_EQ(clearance_of(p, "liver", "jaw"), 7e-4);
 }
 
 TEST(HapticParameters, ForcesBecomeLengths) {

@@ -327,6 +327,36 @@ TEST_F(ToolProxyTest, AStateHasTheNearestPlaceOfEachPatchWithItsForce) {
   EXPECT_TRUE(state_of(follow(proxy, kRadius + 3.0 * parameters_.clearance)).contacts.empty());
 }
 
+/// The proxy goes up with a clearance that rises, at its speed, and is never squeezed. It goes down
+/// with one that falls, at once.
+TEST_F(ToolProxyTest, AClearanceRisesAtItsSpeedAndFallsAtOnce) {
+  for (const double milliseconds : {1.0, 8.0}) {
+    ToolProxy proxy(tool_, parameters_);
+    parameters_.clearances = {{"", "shaft", 2e-3}, {"kidney", "", 0.02}};
+    press(proxy, -0.01);
+    double height = follow(proxy, -0.01).proxy->axis.tip.z();
+    EXPECT_NEAR(height, kRadius + 2e-3, 1e-5);
+    parameters_.clearances.push_back({"liver", "shaft", 7e-3});
+    proxy.update_settings();
+    const double step = parameters_.clearance_speed * 1e-3 * milliseconds;
+    int ticks = 0;
+    for (; height < kRadius + 7e-3 - 2e-5; ++ticks) {
+      const ProxyReport report = follow(proxy, -0.01, milliseconds);
+      ASSERT_EQ(report.answer->state, ProxyStatus::kTouching);
+      ASSERT_LT(report.proxy->axis.tip.z(), height + 1.02 * step + 1e-5);
+      ASSERT_GT(report.proxy->axis.tip.z(), height);
+      height = report.proxy->axis.tip.z();
+      ASSERT_NEAR(state_of(report).contacts.at(0).clearance, height - kRadius, 1e-5);
+    }
+    EXPECT_NEAR(ticks, 5e-3 / step, 1.0);
+    parameters_.clearances = {{"liver", "", 1e-3}};
+    proxy.update_settings();
+    EXPECT_NEAR(follow(proxy, -0.01, 1.0).proxy->axis.tip.z(), kRadius + 1e-3, 1e-5);
+    parameters_.clearances = {{"liver", "shaft", 0.0}};
+    EXPECT_EQ(follow(proxy, -0.01, 1.0).answer->state, ProxyStatus::kFree);
+  }
+}
+
 /// Tissue rises by 31 mm/s from 10 mm below a hand, in shapes at 60 Hz.
 class RisingTissueTest : public ToolProxyTest {
  protected:
@@ -336,13 +366,14 @@ class RisingTissueTest : public ToolProxyTest {
   }
 
   /// The ticks are 1 ms apart.
-  ProxyReport follow_in_tissue(ToolProxy& proxy, int tick, double hand, bool interpolates) {
+  ProxyReport follow_in_tissue(ToolProxy& proxy, int tick, double hand, bool interpolates,
+                               double late = 0.0) {
     const ros::Time now = ros::Time(50) + ros::Duration(1e-3 * tick);
     if (tick * 60 / 1000 != (tick - 1) * 60 / 1000 || tick == 0) {
-      const auto height = static_cast<float>(kSpeed * 1e-3 * tick - 0.01);
+      const auto height = static_cast<float>(kSpeed * (1e-3 * tick - late) - 0.01);
       const auto next = boost::make_shared<OrganMesh>();
       next->organ = next->header.frame_id = "liver";
-      next->header.stamp = now;
+      next->header.stamp = now - ros::Duration(late);
       next->triangles = {0, 1, 2};
       next->vertices = {-0.3F, -0.2F, height, 0.3F, -0.2F, height, 0.0F, 0.4F, height};
       organs_.apply(next, now);
@@ -353,6 +384,8 @@ class RisingTissueTest : public ToolProxyTest {
       return Timed<std::shared_ptr<const TriangleMesh>>{
           interpolates ? shapes_.shape(organ, now_) : latest.mesh, latest.stamp};
     });
+    const double behind = interpolates ? shapes_.late(*scene_.sources[0], now_) : 0.0;
+    scene_.motions[0].lag_sec = (now - scene_.motions[0].stamp).toSec() + behind;
     return follow(proxy, hand, 1.0);
   }
 
@@ -377,6 +410,35 @@ TEST_F(RisingTissueTest, InterpolatedMovesTheHandInSmallSteps) {
       EXPECT_LT(greatest, 0.016);
     } else {
       EXPECT_GT(greatest, 0.14);
+    }
+  }
+}
+
+/// The shapes are 1/60 s late. The hand rests above the tissue, which comes to it and pushes it.
+TEST_F(RisingTissueTest, StaysAwayAtItsTrueTimeOnlyIfTheLagIsGuarded) {
+  parameters_.clearance = 1e-3;
+  for (const bool guards : {true, false}) {
+    for (const bool interpolates : {false, true}) {
+      SCOPED_TRACE(testing::Message() << guards << ' ' << interpolates);
+      parameters_.guard_lag = guards;
+      ToolProxy proxy(tool_, parameters_);
+      begin();
+      double least = 1.0, kept = 0.0;
+      for (int tick = 0; tick < 500; ++tick) {
+        const ProxyReport report =
+            follow_in_tissue(proxy, tick, kRadius + 4e-3, interpolates, 1.0 / 60.0);
+        EXPECT_NE(report.answer->state, ProxyStatus::kSqueezed);
+        const double tissue = kSpeed * 1e-3 * tick - 0.01;
+        least = std::min(least, report.proxy->axis.tip.z() - kRadius - tissue);
+        if (tick > 450) kept = std::max(kept, state_of(report).contacts.at(0).clearance);
+      }
+      const double age = 2.0 / 60.0 + 1e-3;  // the most, with the time between ticks
+      EXPECT_LT(kept, 1e-3 + (guards ? kSpeed * age : 0.0) + 1e-9);
+      if (guards) {
+        EXPECT_GT(least, 0.99e-3);
+      } else {
+        EXPECT_LT(least, 1e-3 - 0.9 * kSpeed / 60.0);
+      }
     }
   }
 }

@@ -234,6 +234,29 @@ class HapticProxyTest(ProxyCase):
         self.assertAlmostEqual(state.wrench.force.z, 1.5, delta=1e-6)
         self.assertEqual(self.change('max_force', -1.0), 1.5, 'an illegal value is refused')
 
+    def test_a_list_of_clearances_is_read_and_reloaded(self):
+        """The proxy goes up with a clearance that rises."""
+        def at(clearance):
+            return lambda state: state.contacts and all(
+                abs(value - clearance) < 1e-5 for value in (state.contacts[0].clearance, state.contacts[0].distance))
+        self.organ = 'vein'
+        self.addCleanup(self.remove, 'vein')
+        self.send_sheet()
+        self.hold_free()
+        self.hands.move('needle', DEEP)
+        self.hold_until('needle', DEEP, at(0.002), 'the clearance of the list')
+        name = self.node + '/clearance'
+        before = rospy.get_param(name)
+        self.addCleanup(self.reload)
+        self.addCleanup(rospy.set_param, name, before)
+        rospy.set_param(name, before + [{'organ': 'vein', 'link': 'shaft', 'value': 0.004}])
+        self.assertTrue(self.reload().success)
+        self.hold_until('needle', DEEP, at(0.004), 'the larger clearance')
+        rospy.set_param(name, before + [{'link': 'shafts', 'value': 0.004}])
+        answer = self.reload()
+        self.assertFalse(answer.success)
+        self.assertIn("nearest is 'shaft'", answer.message)
+
     def test_a_tool_that_is_removed_lets_go(self):
         self.send_sheet()
         wrenches = Log('%s/%s/needle/wrench' % (self.node, self.organ), WrenchStamped)

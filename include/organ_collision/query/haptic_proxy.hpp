@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -49,8 +50,8 @@ struct ProxyTool {
 /// How a proxy behaves. It is pure geometry: a force is a stiffness [N/m] times a length, so forces
 /// are given as lengths here.
 struct ProxySettings {
-  /// [m] The proxy stops this far from tissue. Unless its state is kSqueezed or kPunctured, it is
-  /// never nearer than half of this distance.
+  /// [m] The proxy stops this far from tissue, unless ProxyOrgan::clearances says otherwise. Unless
+  /// its state is kSqueezed or kPunctured, it is never nearer than half of this distance.
   double clearance = 1e-4;
   /// [m] If the tip, the centre or the trocar of the hand moves farther than this between two
   /// ticks, or a free tool turns by more than this divided by ProxyAnswer::size, the proxy is
@@ -60,8 +61,8 @@ struct ProxySettings {
   /// proxy, along the axis. It is the threshold of the force divided by the stiffness. Not set: the
   /// tool never pierces. Only for a shaft through a trocar.
   std::optional<double> puncture = {};
-  /// [m] ProxyAnswer::contacts lists tissue up to this distance, and at least up to twice the
-  /// clearance.
+  /// [m] ProxyAnswer::contacts lists tissue up to this distance, and at least up to its clearance
+  /// plus the least clearance of all, which is twice the clearance if there is only one.
   double row_reach = 0.0;
   bool hand_rows = false;  ///< whether ProxyAnswer::hand_contacts is filled
   /// [m] A needle in tissue slides along its axis if the tip of the hand is this far from the tip
@@ -87,6 +88,14 @@ struct ProxyOrgan {
   /// of the hand. A surface that is not closed has no sides: the proxy keeps the side on which it
   /// starts.
   Side keep = Side::kOutside;
+  /// [m] The clearance that the shaft, and then each link, keeps from this organ. 0: the organ does
+  /// not hold this part of the tool. Empty: ProxySettings::clearance, for all of them.
+  std::vector<double> clearances = {};
+  /// [m] How far tissue has come towards the tool, along the normal of a contact in the proxy's
+  /// frame, since the shape was measured. The clearance at the contact grows by it, up to
+  /// `most_advance`. Only called within follow(). Null: the shape is not late.
+  std::function<double(const FaceContact&)> advance = {};
+  double most_advance = 0.0;
 };
 
 /// A face near a proxy, and the load that it bears.
@@ -94,9 +103,12 @@ struct ProxyFace {
   std::size_t organ = 0;  ///< the place of the organ in the list given to follow()
   /// The nearest points of the proxy and a face, in the proxy's frame. `depth` is minus the
   /// distance, and `fraction` is 0. Of each locally convex patch, about as wide as the clearance,
-  /// the nearest face is listed if it is nearer than twice the clearance. If the proxy is still on
-  /// its way, the nearest faces are listed. Nothing is listed for a needle in tissue.
+  /// the nearest face is listed up to the distance of ProxySettings::row_reach. If the proxy is
+  /// still on its way, the nearest faces are listed. Nothing is listed for a needle in tissue.
   FaceContact contact;
+  /// [m] The distance that is kept here now: the clearance of the organ and the link, and what the
+  /// tissue has come nearer (ProxyOrgan::advance).
+  double clearance = 0.0;
   /// [m] The force of the proxy on the tissue, divided by the stiffness. It acts at contact.point,
   /// along contact.normal. Not negative.
   double load = 0.0;
@@ -141,8 +153,8 @@ struct ProxyAnswer {
   double size = 0.0;
   /// The faces near the proxy, and their loads, the nearest first.
   std::vector<ProxyFace> contacts;
-  /// If ProxySettings::hand_rows is set: the same for the hand as it is, without loads. Empty if the
-  /// way from the proxy to the hand meets tissue.
+  /// If ProxySettings::hand_rows is set: the same for the hand as it is, without loads. Empty if
+  /// the way from the proxy to the hand meets tissue.
   std::vector<ProxyFace> hand_contacts;
   /// Where a needle goes through tissue, from entry to tip. Empty unless the needle has pierced.
   std::vector<ProxyCrossing> crossings;

@@ -32,6 +32,9 @@ inline constexpr char kReloadTools[] = "reload_tools";
 /// the nodes, and --help prints them.
 inline constexpr char kTools[] = "tools";
 
+/// The shaft of a tool, where a parameter names a link.
+inline constexpr char kShaftName[] = "shaft";
+
 ///@{
 /// A key of an entry of the parameter `tools`.
 inline constexpr char kToolName[] = "name";

@@ -48,6 +48,9 @@ class ParameterGroup {
                  std::vector<std::string> legal_names);
 
   bool has(const std::string& name) const { return value_.hasMember(name); }
+  bool has_list(const std::string& name) const {
+    return has(name) && value_[name].getType() == XmlRpc::XmlRpcValue::TypeArray;
+  }
 
   /// These functions read members with a default. Each returns the value of the member, or
   /// `fallback` if there is no such member. Each throws ParameterError if the value is illegal, or

@@ -92,6 +92,8 @@ double Row::value_in(const ParameterGroup& all) const {
 }
 
 void Row::read(const ParameterGroup& all) const {
+  if (list) list(all);
+  if (all.has_list(name) && list) return;
   is_flag() || is_number() ? set_value(value_in(all)) : std::get<Read>(member)(all);
 }
 
@@ -140,7 +142,19 @@ void ParameterTable::change(const XmlRpcValue& changes) const {
   for (const std::string& sentence : group.misspelt()) throw ParameterError(sentence);
   std::vector<double> values;
   for (const Row& row : live) values.push_back(row.value_in(group));
-  for (std::size_t i = 0; i < live.size(); ++i) live[i].set_value(values[i]);
+  for (std::size_t i = 0; i < live.size(); ++i) {
+    if (live[i].list && values[i] != live[i].value()) live[i].list(group);
+    live[i].set_value(values[i]);
+  }
+}
+
+bool ParameterTable::read_lists(const XmlRpcValue& private_namespace) const {
+  bool has_any = false;
+  for (const Row& row : rows_) {
+    if (row.list) row.read(group(private_namespace));
+    has_any = has_any || row.list;
+  }
+  return has_any;
 }
 
 std::vector<Row> ParameterTable::live_rows() const {

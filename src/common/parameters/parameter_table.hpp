@@ -38,6 +38,8 @@ class ParameterTable {
     double fallback = 0.0;   ///< the default of a number; of a flag, 0 or 1
     NumberRange range = {};  ///< the legal values of a number
     bool is_live = false;    ///< it can be changed while the node runs
+    /// Reads a list that may stand for the number. If there is none, it forgets the last list.
+    Read list = nullptr;
 
     bool is_flag() const { return std::holds_alternative<bool*>(member); }
     bool is_whole() const { return std::holds_alternative<int*>(member); }
@@ -51,7 +53,11 @@ class ParameterTable {
     /// Reads the parameter, if it is there. Throws ParameterError.
     void read(const ParameterGroup& all) const;
 
-    void live() { is_live = true; }
+    Row& live() {
+      is_live = true;
+      return *this;
+    }
+    void or_list(const Read& its_list) { list = its_list; }
     HelpEntry help() const;
   };
 
@@ -93,6 +99,10 @@ class ParameterTable {
   /// Applies changes while the node runs. Throws ParameterError, and changes nothing, if a value is
   /// illegal, or if a parameter cannot be changed then.
   void change(const XmlRpc::XmlRpcValue& changes) const;
+
+  /// Reads those parameters again that may be lists, which change() cannot take. Returns whether
+  /// there are any. Throws ParameterError, and then changes nothing of a parameter.
+  bool read_lists(const XmlRpc::XmlRpcValue& private_namespace) const;
 
   const std::vector<Row>& rows() const { return rows_; }
   /// The rows that can be changed while the node runs.

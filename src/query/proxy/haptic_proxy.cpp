@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 #include "mobility.hpp"
@@ -21,10 +22,17 @@ constexpr double kResting = 1.02;
 
 /// A face near a tool, without a load.
 ProxyFace face_at(const TissueContact& near) {
-  ProxyFace face{near.organ, near.contact, 0.0};
+  ProxyFace face{near.organ, near.contact, near.clearance, 0.0};
   face.contact.fraction = 0.0;
   face.contact.depth = -near.distance;
   return face;
+}
+
+/// The nearest first.
+void sort(std::vector<ProxyFace>& faces) {
+  std::stable_sort(faces.begin(), faces.end(), [](const ProxyFace& a, const ProxyFace& b) {
+    return a.contact.depth > b.contact.depth;
+  });
 }
 
 }  // namespace
@@ -68,12 +76,13 @@ struct HapticProxy::State {
   void hold(Tick& tick, Needle&& held) const;
   void move_proxy(Tick& tick);
   std::vector<OrganTick> match(const std::vector<ProxyOrgan>& organs, bool goes_on) const;
+  void set_clearances(Tick& tick);
   void choose_sides(Tick& tick);
   bool is_in_new_tissue(Tick& tick);
   HandWay way_of(const ToolPose& hand) const;
   void describe(Tick& tick);
-  bool add_rows(const ToolPose& pose, double from, std::vector<ProxyFace>& rows);
-  void describe_hand(Tick& tick);
+  bool add_rows(const ToolPose& pose, double told, double spare, std::vector<ProxyFace>& rows);
+  void describe_hand(Tick& tick, double told);
 
   std::unique_ptr<Mobility> mobility;
   Tissue tissue;
@@ -83,6 +92,7 @@ struct HapticProxy::State {
 
   ToolPose last_hand;
   double last_way = 0.0;  ///< [m] how far the proxy moved in the last tick
+  ProxyClearance last_clearance{0.0};
   std::vector<ProxyOrgan> last_organs;
 };
 
@@ -99,7 +109,7 @@ HapticProxy& HapticProxy::operator=(HapticProxy&&) noexcept = default;
 const ProxyAnswer& HapticProxy::follow(const ToolPose& hand,
                                        const std::vector<ProxyOrgan>& organs) {
   check_hand(state_->tool, hand);
-  check_organs(organs);
+  check_organs(state_->tool, organs);
   ToolPose checked = hand;
   if (state_->tool.radius == 0.0) checked.axis = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   state_->follow(checked, organs);
@@ -119,7 +129,6 @@ void HapticProxy::set_settings(const ProxySettings& settings) {
 
 void HapticProxy::State::set_settings(const ProxySettings& its_settings) {
   settings = its_settings;
-  motion.set_clearance(settings.clearance);
 }
 
 /// One tick. A needle in tissue moves with the tissue. Any other proxy gives way to the tissue that
@@ -134,6 +143,7 @@ void HapticProxy::State::follow(const ToolPose& hand, const std::vector<ProxyOrg
     tick.place = place;
   }
   tick.motions = match(organs, tick.place.has_value());
+  set_clearances(tick);
   tissue.start_tick();
   tissue.set_organs(tick.motions);
   mobility->measure(hand);
@@ -156,7 +166,11 @@ void HapticProxy::State::follow(const ToolPose& hand, const std::vector<ProxyOrg
   last_way = tick.way;
   last_hand = hand;
   last_organs = organs;
-  for (std::size_t i = 0; i < organs.size(); ++i) last_organs[i].keep = tick.motions[i].keep;
+  for (std::size_t i = 0; i < organs.size(); ++i) {
+    last_organs[i].keep = tick.motions[i].keep;
+    last_organs[i].clearances = tick.motions[i].clearances;
+  }
+  last_clearance = tissue.clearance();
 }
 
 /// Moves a needle that is in tissue. Returns whether it is still in tissue.
@@ -231,8 +245,13 @@ std::vector<OrganTick> HapticProxy::State::match(const std::vector<ProxyOrgan>& 
     tick.topology = organ.topology;
     tick.T_now = tick.T_before = organ.T_organ_proxy;
     tick.keep = organ.keep;
+    tick.given = &organ;
+    tick.clearances = organ.clearances;
+    tick.clearances.resize(1 + tool.links.size(), settings.clearance);
+    if (tool.radius == 0.0) tick.clearances[0] = 0.0;
     for (const ProxyOrgan& last : last_organs) {
       if (last.name != organ.name) continue;
+      tick.last = &last;
       if (organ.keep == Side::kUnknown && goes_on) tick.keep = last.keep;
       const bool has_same_triangles =
           last.shape->topology() == organ.shape->topology() && last.shape->same_faces(*organ.shape);
@@ -245,12 +264,40 @@ std::vector<OrganTick> HapticProxy::State::match(const std::vector<ProxyOrgan>& 
   return ticks;
 }
 
+/// Takes the clearances of this tick. What was proven of the place in the scaled distances of the
+/// last tick is put into those of this one. An organ that begins to hold a part counts as new.
+void HapticProxy::State::set_clearances(Tick& tick) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  ProxyClearance now{kNone};
+  for (const OrganTick& organ : tick.motions) {
+    for (const double own : organ.clearances) {
+      if (own > 0.0) now.rest = std::min(now.rest, own);
+      now.most = std::max(now.most, own);
+    }
+  }
+  if (now.rest == kNone) now.rest = settings.clearance;
+  motion.set_clearance(now);
+  double proven = kNone;
+  for (OrganTick& organ : tick.motions) {
+    for (std::size_t part = 0; organ.last && part < organ.clearances.size(); ++part) {
+      const double own = organ.clearances[part], before = organ.last->clearances[part];
+      if (own == 0.0 || !tick.place) continue;
+      if (before == 0.0) organ.is_new = true;
+      if (before == 0.0) continue;
+      const double distance = last_clearance.distance(tick.place->clearance, before);
+      proven = std::min(proven, now.scaled(distance, own));
+    }
+  }
+  if (proven < kNone) tick.place->clearance = proven;
+}
+
 /// Chooses the side of each closed organ of which the tool keeps the side where it starts.
 void HapticProxy::State::choose_sides(Tick& tick) {
-  const ShaftAxis place = tissue.places_of(tick.place ? tick.place->pose : tick.hand).front();
   for (OrganTick& organ : tick.motions) {
     if (organ.keep != Side::kUnknown || !organ.topology || !organ.topology->is_closed()) continue;
-    const Side side = tissue.side(organ, place);
+    const auto places = tissue.places_of(tick.place ? tick.place->pose : tick.hand, organ);
+    if (places.empty()) continue;
+    const Side side = tissue.side(organ, places.front());
     if (side != Side::kOnSurface) organ.keep = side;
   }
 }
@@ -265,11 +312,12 @@ bool HapticProxy::State::is_in_new_tissue(Tick& tick) {
   ProxyPlace& start = *tick.place;
   tissue.set_organs(new_organs);
   // The links of a squeezed tool reach into tissue, so only its first place counts.
-  const bool is_wrong = tissue.is_on_wrong_side({tissue.places_of(start.pose).front()});
+  const bool is_wrong = tissue.is_on_wrong_side(start.pose, true);
+  start.clearance = std::min(start.clearance, tissue.clearance().rest);
   std::vector<TissueContact> contacts;
-  tissue.touch({start.pose}, settings.clearance, contacts);
+  tissue.touch({start.pose}, tissue.clearance().rest, contacts);
   for (const TissueContact& contact : contacts) {
-    start.clearance = std::min(start.clearance, contact.distance);
+    start.clearance = std::min(start.clearance, contact.scaled);
   }
   tissue.set_organs(tick.motions);
   return is_wrong;
@@ -294,49 +342,57 @@ void HapticProxy::State::describe(Tick& tick) {
   said.proxy = back.isZero(0.0) ? tick.hand : now.pose;
   said.pull -= back.head<3>();
   said.twist -= said.size * back.tail<3>();
-  double nearest = now.clearance;
-  for (const TissueContact& near : motion.contacts()) nearest = std::min(nearest, near.distance);
-  // The greatest distance of a face that bears load. It exceeds the clearance if the proxy hovers
-  // because it did not reach its place in this tick.
-  const double resting = kResting * std::max(settings.clearance, nearest);
-  const double told = std::max(2.0 * settings.clearance, resting);
+  const ProxyClearance& clearance = tissue.clearance();
+  double nearest = now.clearance, hovers = now.clearance - clearance.rest;
+  for (const TissueContact& near : motion.contacts()) {
+    nearest = std::min(nearest, near.scaled);
+    hovers = std::min(hovers, near.spare());
+  }
+  // A face bears load up to a distance that exceeds its clearance if the proxy hovers because it
+  // did not reach its place in this tick.
+  hovers = std::max(0.0, hovers);
+  const double told = std::max(2.0 * clearance.rest, kResting * (clearance.rest + hovers));
   std::vector<Wall> holding;
   for (std::size_t i = 0; i < motion.contacts().size(); ++i) {
     const TissueContact& near = motion.contacts()[i];
-    if (near.distance >= told) continue;
+    if (near.spare() + clearance.rest >= told) continue;
     said.contacts.push_back(face_at(near));
-    const bool holds = near.distance <= resting;
+    const bool holds = near.distance <= kResting * (near.clearance + hovers);
     // A row of zeros bears no load.
     holding.push_back({holds ? motion.walls()[i].row : Displacement(Displacement::Zero()), 0.0});
   }
   solver.solve(back, holding);
   for (std::size_t i = 0; i < holding.size(); ++i) said.contacts[i].load = solver.load(i);
-  if (nearest < ProxyClearance{settings.clearance}.least()) {
+  sort(said.contacts);
+  if (nearest < clearance.least()) {
     said.state = ProxyStatus::kSqueezed;
   } else {
     said.state = back.isZero(0.0) ? ProxyStatus::kFree : ProxyStatus::kTouching;
   }
-  add_rows(now.pose, told, said.contacts);
-  if (settings.hand_rows) describe_hand(tick);
+  if (settings.row_reach > told) add_rows(now.pose, told, told - clearance.rest, said.contacts);
+  if (settings.hand_rows) describe_hand(tick, told);
 }
 
-/// Adds the tissue that is at least `from` [m] away from the tool at a pose, up to the row_reach
-/// or twice the clearance: the nearest face of each patch, whose radius is half as much. Returns
-/// false if the tests of the tick are used up. Tissue is then missing.
-bool HapticProxy::State::add_rows(const ToolPose& pose, double from, std::vector<ProxyFace>& rows) {
-  const double reach = std::max(2.0 * settings.clearance, settings.row_reach);
-  if (reach <= from) return true;
-  const bool is_complete = tissue.look(pose, {reach, 0.5 * reach, settings.clearance}, found);
+/// Adds the tissue near the tool at a pose that the tool could come nearer to by at least `spare`
+/// [m], up to the scaled distance `told` [m] and up to row_reach: the nearest face of each patch,
+/// whose radius is half of that. Returns false if the tests of the tick are used up. Tissue is then
+/// missing.
+bool HapticProxy::State::add_rows(const ToolPose& pose, double told, double spare,
+                                  std::vector<ProxyFace>& rows) {
+  const double reach = std::max(told, settings.row_reach);
+  const bool is_complete =
+      tissue.look(pose, {told, 0.5 * reach, tissue.clearance().rest}, found, settings.row_reach);
   for (const TissueContact& near : found) {
-    if (near.distance >= from) rows.push_back(face_at(near));
+    if (near.spare() >= spare) rows.push_back(face_at(near));
   }
+  sort(rows);
   return is_complete;
 }
 
 /// The rows of the hand as it is. None if the way from the proxy to the hand meets tissue: the hand
 /// has passed a wall, behind which its rows would point the wrong way. None, too, if the tests of
 /// the tick are used up.
-void HapticProxy::State::describe_hand(Tick& tick) {
+void HapticProxy::State::describe_hand(Tick& tick, double told) {
   std::vector<ProxyFace>& rows = tick.answer.hand_contacts;
   if (tick.answer.state == ProxyStatus::kFree) {
     rows = tick.answer.contacts;
@@ -345,7 +401,7 @@ void HapticProxy::State::describe_hand(Tick& tick) {
   }
   tissue.touch({tick.place->pose, tick.hand}, 0.0, found);
   if (!found.empty()) return;
-  if (!add_rows(tick.hand, 0.0, rows)) rows.clear();
+  if (!add_rows(tick.hand, told, -std::numeric_limits<double>::infinity(), rows)) rows.clear();
 }
 
 }  // namespace organ_collision

@@ -85,17 +85,18 @@ double Needle::stop_at_faces(double from, double hand_tip, const ProxySettings& 
   const double to = axis_.along().norm();
   if (!(to > from)) return to;
   const Vector3d direction = axis_.along() / to;
-  const ShaftAxis ahead{axis_.trocar, axis_.tip + settings.clearance * direction};
-  const double length = to + settings.clearance;
+  const double most = tissue.clearance().most, length = to + most;
+  const ShaftAxis ahead{axis_.trocar, axis_.tip + most * direction};
+  double tip = to;
   for (const ProxyCrossing& found : tissue.cross(ahead)) {
     const double face = found.shaft * length;
-    const double stop = face - settings.clearance;
+    const double stop = face - tissue.clearance(found.organ, kShaft);
     if (face <= from || (is_entry(found) && inserted_ == 0.0) ||
         hand_tip - stop >= threshold(settings))
       continue;
-    return std::clamp(stop, from, to);
+    tip = std::min(tip, std::clamp(stop, from, to));
   }
-  return to;
+  return tip;
 }
 
 void Needle::describe(const ShaftAxis& hand, Tissue& tissue) {

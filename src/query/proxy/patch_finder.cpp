@@ -33,10 +33,12 @@ std::optional<ClosestPoints> measure(const MovingPart& part, bool is_convex, con
 
 }  // namespace
 
-bool PatchFinder::find(const Step& step, const Limits& limits, std::size_t& tests,
+bool PatchFinder::find(const Step& step, const std::vector<Limits>& of_parts, std::size_t& tests,
                        std::vector<FaceContact>& contacts) {
   bool is_complete = true;
   for_each_part(step, [&](const ToolPart& part, const LegSpan& span) {
+    const Limits& limits = of_parts[static_cast<std::size_t>(part.link + 1)];
+    if (limits.distance == 0.0) return;
     const PartOnLeg moving(step, span, part);
     const OrganMotion organ = step.organ_motion(span);
     const bool is_convex = !part.shape || !part.shape->surface;

@@ -19,9 +19,9 @@ namespace organ_collision {
 /// Keeps its memory between searches.
 class PatchFinder {
  public:
-  /// What is searched [m].
+  /// What is searched by a part of the tool [m].
   struct Limits {
-    double distance;   ///< up to this distance between tool and face
+    double distance;   ///< up to this distance between tool and face; 0: the part does not search
     double patch;      ///< a face covers others up to this distance from its nearest point, or up
                        ///< to its own distance from the tool if that is larger
     double clearance;  ///< at about this distance, patches must be smooth
@@ -29,9 +29,10 @@ class PatchFinder {
 
   /// Adds the contacts of a static query that are not covered. The nearest face of each part of the
   /// tool is never covered. At most kMost faces a part are added, the nearest ones; contacts of a
-  /// part are sorted by distance. Each test of a face against a part takes one of `tests`. Returns
-  /// false if none was left before the end: nearer faces may be missing.
-  bool find(const Step& step, const Limits& limits, std::size_t& tests,
+  /// part are sorted by distance. `limits`: of the shaft, and of each link. Each test of a face
+  /// against a part takes one of `tests`. Returns false if none was left before the end: nearer
+  /// faces may be missing.
+  bool find(const Step& step, const std::vector<Limits>& limits, std::size_t& tests,
             std::vector<FaceContact>& contacts);
 
  private:

@@ -233,17 +233,18 @@ bool ProxyMotion::fly(ProxyPlace& place, const ToolPose& hand) {
     if (!fly(place, hand, clearance_.rest)) return false;
     there.clearance = place.clearance;
     look_around(there, told());
+    if (!contacts_.empty() && contacts_.front().spare() < 0.0) return false;
   } else {
     const double distance = std::max(told(), clearance_.rest + 2.0 * way);
     if (!look_around(there, distance)) return false;
-    if (there.clearance < clearance_.rest) return false;
+    if (!contacts_.empty() && contacts_.front().spare() < 0.0) return false;
     const double growth = growth_from(place.clearance);
     if (!is_clear({place.pose}, there, clearance_.rest) && !is_clear(place, there, growth) &&
         !fly(place, hand, growth)) {
       return false;
     }
   }
-  while (!contacts_.empty() && contacts_.back().distance >= told()) {
+  while (!contacts_.empty() && contacts_.back().spare() >= told() - clearance_.rest) {
     contacts_.pop_back();
     walls_.pop_back();
   }
@@ -275,7 +276,8 @@ void ProxyMotion::slide(ProxyPlace& place, const ToolPose& hand, double reach) {
     Displacement goal = mobility_.between(place.pose, hand);
     const bool goes_on = look < kMostLooks - 1;
     // If the place is not found in this tick, the last step only restores the clearance.
-    const double off = 2.0 * std::abs(place.clearance - clearance_.rest);
+    const double off = 2.0 * std::abs(contacts_.empty() ? place.clearance - clearance_.rest
+                                                        : contacts_.front().spare());
     if (!goes_on && goal.norm() > off) goal *= off / goal.norm();
     solver_.solve(goal, walls_);
     const double way = mobility_.longest_way(place.pose, solver_.displacement());
@@ -328,15 +330,19 @@ bool ProxyMotion::look_around(ProxyPlace& place, double distance) {
   const bool is_complete = tissue_.look(place.pose, {distance, patch, clearance_.rest}, contacts_);
   walls_.clear();
   add_walls(place.pose, place.pose, contacts_);
-  if (is_complete) place.clearance = contacts_.empty() ? distance : contacts_.front().distance;
-  return is_complete;
+  if (!is_complete) return false;
+  place.clearance = distance;
+  for (const TissueContact& found : contacts_) {
+    place.clearance = std::min(place.clearance, found.scaled);
+  }
+  return true;
 }
 
 /// [m] Up to which distance the answer tells of tissue.
 double ProxyMotion::told() const { return kTold * clearance_.rest; }
 
-/// Whether the distances at both ends prove that the straight way between two places stays farther
-/// than `growth` [m] from tissue: a distance changes by at most what the tool moves.
+/// Whether the scaled distances at both ends prove that the straight way between two places stays
+/// farther than `growth` [m] from tissue: a distance changes by at most what the tool moves.
 bool ProxyMotion::is_clear(const ProxyPlace& from, const ProxyPlace& to, double growth) const {
   const double way = tissue_.farthest_move(from.pose, to.pose);
   const double least = std::max(0.5 * (from.clearance + to.clearance - way), to.clearance - way);
@@ -350,7 +356,7 @@ void ProxyMotion::add_walls(const ToolPose& given, const ToolPose& pose,
   const Displacement so_far = mobility_.between(given, pose);
   for (const TissueContact& found : contacts) {
     const Displacement row = mobility_.row(pose, found.contact);
-    walls_.push_back({row, found.distance - clearance_.rest + row.dot(so_far)});
+    walls_.push_back({row, found.spare() + row.dot(so_far)});
   }
 }
 
@@ -390,7 +396,7 @@ std::optional<ProxyPlace> ProxyMotion::enter(ProxyFreedom freedom, const ToolPos
 std::optional<ProxyPlace> ProxyMotion::first_free(const std::vector<ToolPose>& poses) {
   for (const ToolPose& pose : poses) {
     tissue_.touch({pose}, clearance_.rest, met_);
-    if (!met_.empty() || tissue_.is_on_wrong_side(tissue_.places_of(pose))) continue;
+    if (!met_.empty() || tissue_.is_on_wrong_side(pose)) continue;
     return ProxyPlace{pose, clearance_.rest};
   }
   return std::nullopt;

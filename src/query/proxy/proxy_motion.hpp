@@ -19,17 +19,9 @@ std::unique_ptr<const TriangleMesh> shape_between(const TriangleMesh& before,
 /// Where a proxy is, and how far it is from tissue there.
 struct ProxyPlace {
   ToolPose pose;
-  /// [m] The proxy is at least this far from every face. Negative infinity: it is unknown.
+  /// [m] The proxy is at least this scaled distance from every face. Negative infinity: it is
+  /// unknown.
   double clearance = -std::numeric_limits<double>::infinity();
-};
-
-/// The distances that a proxy keeps from tissue [m], measured from the surface of its tool.
-struct ProxyClearance {
-  double rest;  ///< the proxy stops at this distance
-  /// A moving proxy keeps this distance. It is smaller than `rest`, so that a motion along a curved
-  /// surface need not follow each curve.
-  double swept() const { return 0.6 * rest; }
-  double least() const { return 0.5 * rest; }  ///< a proxy nearer than this is squeezed
 };
 
 /// Moves a proxy. A swept collision query checks each motion, and the proxy moves only as far as it
@@ -40,7 +32,10 @@ class ProxyMotion {
   /// `mobility` and `tissue` must outlive this object.
   ProxyMotion(const Mobility& mobility, Tissue& tissue) : mobility_(mobility), tissue_(tissue) {}
 
-  void set_clearance(double clearance) { clearance_ = {clearance}; }
+  void set_clearance(const ProxyClearance& clearance) {
+    clearance_ = clearance;
+    tissue_.set_clearance(clearance);
+  }
 
   /// The place where a proxy starts when it is placed anew. From there it moves to the hand like
   /// any proxy. A tool through a trocar starts with its tip at the trocar. A free tool starts where
@@ -63,9 +58,9 @@ class ProxyMotion {
   /// away this place may be. The joints and the trocar of `place` must be those of `hand`.
   void slide(ProxyPlace& place, const ToolPose& hand, double reach);
 
-  /// The tissue near the proxy after slide(), or after fly() has reached the hand, the nearest
-  /// first: of each locally convex patch the nearest face, if it is within at least twice the
-  /// clearance at rest.
+  /// The tissue near the proxy after slide(), or after fly() has reached the hand, that with the
+  /// least spare() first: of each locally convex patch the nearest face, if it is within at least
+  /// twice the clearance at rest, as a scaled distance.
   const std::vector<TissueContact>& contacts() const { return contacts_; }
   /// The walls that belong to contacts(), in the same order.
   const std::vector<Wall>& walls() const { return walls_; }

@@ -43,20 +43,42 @@ Tissue::Tissue(const ProxyTool& tool, const PickerSettings& picker)
 
 double Tissue::least_growth() const { return -std::max(kAxisRadius, tool_.radius - kAxisRadius); }
 
+double Tissue::clearance(const OrganTick& organ, std::int32_t link) const {
+  return organ.clearances.empty() ? clearance_.rest
+                                  : organ.clearances[static_cast<std::size_t>(link + 1)];
+}
+
+/// The parts of the tool that an organ holds, grown. Without `links` if it holds none.
+AskedTool Tissue::grow(const OrganTick& organ, double growth) {
+  double radius = 0.0;
+  bool holds = false;
+  grown_by_.assign(1 + grown_links_.size(), growth);
+  for (std::size_t part = 0; part < grown_by_.size(); ++part) {
+    const double own = clearance(organ, static_cast<std::int32_t>(part) - 1);
+    double& grown = grown_by_[part];
+    if (growth >= 0.0) grown = clearance_.distance(growth, own);
+    if (part == 0) {
+      if (tool_.radius > 0.0 && own > 0.0) radius = std::max(kAxisRadius, tool_.radius + grown);
+      grown = radius - tool_.radius;
+      continue;
+    }
+    std::vector<LinkPart>& parts = grown_links_[part - 1].parts;
+    parts.clear();
+    if (own > 0.0) parts = (growth < 0.0 ? middle_lines_ : tool_.links)[part - 1].parts;
+    for (LinkPart& of_link : parts) of_link.radius += std::max(0.0, grown);
+    if (growth < 0.0) grown = kAxisRadius;  // A middle line has grown by its whole radius.
+    holds = holds || !parts.empty();
+  }
+  return {radius, holds || radius > 0.0 ? &grown_links_ : nullptr};
+}
+
 void Tissue::touch(const std::vector<ToolPose>& way, double growth,
                    std::vector<TissueContact>& contacts, Organs organs) {
   contacts.clear();
-  const bool is_thin = growth < 0.0;
-  const double radius = tool_.radius > 0.0 ? std::max(kAxisRadius, tool_.radius + growth) : 0.0;
-  for (std::size_t link = 0; link < grown_links_.size(); ++link) {
-    const std::vector<LinkPart>& parts = tool_.links[link].parts;
-    for (std::size_t part = 0; part < parts.size(); ++part) {
-      grown_links_[link].parts[part].radius = parts[part].radius + std::max(0.0, growth);
-    }
-  }
-  const AskedTool grown{radius, is_thin ? &middle_lines_ : &grown_links_};
   for (std::size_t organ = 0; organ < organs_->size(); ++organ) {
     const OrganTick& tick = (*organs_)[organ];
+    const AskedTool grown = grow(tick, growth);
+    if (!grown.links) continue;
     const bool moves = organs == Organs::kMove;
     ToolPath path = {waypoint(0.0, moves ? tick.T_before : tick.T_now, way[0])};
     for (std::size_t i = 1; i < way.size(); ++i) {
@@ -69,9 +91,7 @@ void Tissue::touch(const std::vector<ToolPose>& way, double growth,
         result_);
     count(result_.picked.drawn + result_.picked.undrawn);
     for (const FaceContact& found : result_.contacts) {
-      // A middle line has grown by its whole radius.
-      const double growth_of_link = is_thin ? kAxisRadius : growth;
-      add(organ, found, found.link == kShaft ? radius - tool_.radius : growth_of_link, contacts);
+      add(organ, found, grown_by_[static_cast<std::size_t>(found.link + 1)], contacts);
     }
   }
 }
@@ -79,16 +99,34 @@ void Tissue::touch(const std::vector<ToolPose>& way, double growth,
 /// Adds a contact of a tool that is grown by `grown_by` [m], in the organ's frame.
 void Tissue::add(std::size_t organ, const FaceContact& found, double grown_by,
                  std::vector<TissueContact>& contacts) const {
-  const Eigen::Isometry3d T_proxy_organ = (*organs_)[organ].T_now.inverse();
-  TissueContact contact{organ, found, grown_by - found.depth};
+  const OrganTick& tick = (*organs_)[organ];
+  const Eigen::Isometry3d T_proxy_organ = tick.T_now.inverse();
+  const double own = clearance(tick, found.link), distance = grown_by - found.depth;
+  TissueContact contact{organ, found, distance, own, clearance_.scaled(distance, own)};
   contact.contact.point = T_proxy_organ * found.point;
   contact.contact.on_organ = T_proxy_organ * found.on_organ;
   contact.contact.normal = T_proxy_organ.linear() * found.normal;
+  if (tick.given && tick.given->advance) {
+    contact.clearance +=
+        std::clamp(tick.given->advance(contact.contact), 0.0, tick.given->most_advance);
+  }
   contacts.push_back(contact);
 }
 
+/// Sets how far from an organ each part of the tool looks.
+void Tissue::set_limits(const OrganTick& organ, const PatchFinder::Limits& limits, double reach) {
+  limits_.clear();
+  const double advance = organ.given && organ.given->advance ? organ.given->most_advance : 0.0;
+  for (std::size_t part = 0; part <= tool_.links.size(); ++part) {
+    const double own = clearance(organ, static_cast<std::int32_t>(part) - 1);
+    const double more = own - clearance_.rest;
+    const double distance = std::max(limits.distance + (more + advance), reach);
+    limits_.push_back({own > 0.0 ? distance : 0.0, limits.patch, limits.clearance + more});
+  }
+}
+
 bool Tissue::look(const ToolPose& pose, const PatchFinder::Limits& limits,
-                  std::vector<TissueContact>& contacts) {
+                  std::vector<TissueContact>& contacts, double reach) {
   contacts.clear();
   bool is_complete = true;
   for (std::size_t organ = 0; organ < organs_->size(); ++organ) {
@@ -98,7 +136,8 @@ bool Tissue::look(const ToolPose& pose, const PatchFinder::Limits& limits,
     BlockBoxes unused;
     std::size_t tests = tests_;
     found_.clear();
-    if (!patches_.find(Step(request, request.path, unused), limits, tests, found_)) {
+    set_limits(tick, limits, reach);
+    if (!patches_.find(Step(request, request.path, unused), limits_, tests, found_)) {
       is_complete = false;
     }
     count(tests_ - tests);
@@ -111,8 +150,14 @@ bool Tissue::look(const ToolPose& pose, const PatchFinder::Limits& limits,
     });
     for (auto found = found_.begin(); found != end; ++found) add(organ, *found, 0.0, contacts);
   }
-  std::stable_sort(contacts.begin(), contacts.end(),
-                   [](const auto& a, const auto& b) { return a.distance < b.distance; });
+  const double most = limits.distance - clearance_.rest;
+  const auto is_far = [&](const TissueContact& found) {
+    return found.spare() > most && found.distance > reach;
+  };
+  contacts.erase(std::remove_if(contacts.begin(), contacts.end(), is_far), contacts.end());
+  std::stable_sort(contacts.begin(), contacts.end(), [](const auto& a, const auto& b) {
+    return std::make_pair(a.spare(), a.distance) < std::make_pair(b.spare(), b.distance);
+  });
   return is_complete;
 }
 
@@ -140,10 +185,11 @@ double Tissue::farthest_move(const ToolPose& from, const ToolPose& to) const {
   return most;
 }
 
-std::vector<ShaftAxis> Tissue::places_of(const ToolPose& pose) const {
+std::vector<ShaftAxis> Tissue::places_of(const ToolPose& pose, const OrganTick& organ) const {
   std::vector<ShaftAxis> places;
-  if (tool_.radius > 0.0) places.push_back(pose.axis);
+  if (tool_.radius > 0.0 && clearance(organ, kShaft) > 0.0) places.push_back(pose.axis);
   for (std::size_t link = 0; link < tool_.links.size(); ++link) {
+    if (!(clearance(organ, static_cast<std::int32_t>(link)) > 0.0)) continue;
     for (const LinkPart& part : tool_.links[link].parts) {
       const Eigen::Vector3d point =
           pose.links[link] * (part.surface ? part.surface->vertices()[0] : part.core.points[0]);
@@ -153,16 +199,17 @@ std::vector<ShaftAxis> Tissue::places_of(const ToolPose& pose) const {
   return places;
 }
 
-bool Tissue::is_on_wrong_side(const std::vector<ShaftAxis>& places) {
+bool Tissue::is_on_wrong_side(const ToolPose& pose, bool only_first) {
   const auto is_wrong = [](const OrganTick& organ, Side side) {
     return (organ.keep == Side::kOutside && side == Side::kInside) ||
            (organ.keep == Side::kInside && side == Side::kOutside);
   };
   for (const OrganTick& organ : *organs_) {
-    for (const ShaftAxis& place : places) {
+    for (const ShaftAxis& place : places_of(pose, organ)) {
       const AxisPlacement& found = placement(organ, place, organ.topology);
       if (is_wrong(organ, found.tip) || is_wrong(organ, found.trocar)) return true;
       if (!found.crossings.empty()) return true;
+      if (only_first) break;
     }
   }
   return false;
@@ -171,6 +218,7 @@ bool Tissue::is_on_wrong_side(const std::vector<ShaftAxis>& places) {
 std::vector<ProxyCrossing> Tissue::cross(const ShaftAxis& axis) {
   std::vector<ProxyCrossing> crossings;
   for (std::size_t organ = 0; organ < organs_->size(); ++organ) {
+    if (tool_.radius > 0.0 && !(clearance(organ, kShaft) > 0.0)) continue;
     const Eigen::Isometry3d T_proxy_organ = (*organs_)[organ].T_now.inverse();
     for (const AxisCrossing& found : placement((*organs_)[organ], axis, nullptr).crossings) {
       crossings.push_back({organ, found.face, found.barycentric, found.shaft,

@@ -91,8 +91,9 @@ TYPED_TEST_P(ParameterTableTest, EveryNumberAndFlagIsTakenOrNamed) {
       EXPECT_EQ(refusal_of<TypeParam>(row.name, this->typed(row, row.range.lowest)), "accepted");
     }
     for (const XmlRpc::XmlRpcValue& illegal : this->illegal_values(row)) {
+      const bool is_entry = row.list && illegal.getType() == XmlRpc::XmlRpcValue::TypeArray;
       expect_words(refusal_of<TypeParam>(row.name, illegal),
-                   {"~" + row.name + " is ", "; must be "});
+                   {"~" + row.name + (is_entry ? "[0] is " : " is "), "; must be "});
     }
   }
 }

@@ -26,7 +26,7 @@ struct Options {
   std::string scene;  // empty: all
   long ticks, seed;
   long episode;      // only this one; negative: all
-  double clearance;  // [m]
+  double clearance;  // [m]; 0: of each organ and link another one
 };
 
 /// std::nullopt: they are illegal, and the usage was printed.
@@ -43,14 +43,15 @@ std::optional<Options> read(int argc, char** argv) {
       ("of each scene, in episodes of " + std::to_string(kEpisodeTicks)).c_str());
   add("seed", po::value(&options.seed)->default_value(1), "");
   add("episode", po::value(&options.episode)->default_value(-1), "only this one, from 0");
-  add("clearance", po::value(&options.clearance)->default_value(1e-4), "in metres");
+  add("clearance", po::value(&options.clearance)->default_value(1e-4),
+      "in metres. 0: a random one of each organ and part of the tool");
   try {
     po::variables_map given;
     po::store(po::parse_command_line(argc, argv, legal), given);
     po::notify(given);
     const bool is_scene = options.scene.empty() ||
                           std::find(kinds.begin(), kinds.end(), options.scene) != kinds.end();
-    const bool is_legal = std::min(options.ticks, options.seed) > 0 && options.clearance > 0.0;
+    const bool is_legal = std::min(options.ticks, options.seed) > 0 && options.clearance >= 0.0;
     if (is_scene && is_legal) return options;
   } catch (const po::error& error) {
     std::cerr << error.what() << '\n';
@@ -113,7 +114,11 @@ ProxyTally follow_hand(const Options& options, const std::string& kind, long epi
   Random random(1000003 * static_cast<unsigned long>(options.seed) +
                 static_cast<unsigned long>(episode));
   ProxyScene scene = make_proxy_scene(kind, random);
-  scene.settings.clearance = options.clearance;
+  if (options.clearance > 0.0) scene.settings.clearance = options.clearance;
+  std::vector<std::vector<double>> tables(scene.organs.size());
+  if (options.clearance == 0.0) {
+    for (auto& table : tables) table = random_clearances(scene.hand.tool, random);
+  }
   ScriptedHand hand(scene.hand, random);
   HapticProxy proxy(scene.hand.tool, scene.settings);
   long tick = 0;
@@ -125,7 +130,10 @@ ProxyTally follow_hand(const Options& options, const std::string& kind, long epi
   for (; tick < ticks; ++tick) {
     const ToolPose& pose = hand.next();
     std::vector<ProxyOrgan> organs;
-    for (ScriptedOrgan& organ : scene.organs) organs.push_back(organ.at(tick));
+    for (std::size_t i = 0; i < scene.organs.size(); ++i) {
+      organs.push_back(scene.organs[i].at(tick));
+      organs.back().clearances = tables[i];
+    }
     const double begin = processor_seconds();
     const ProxyAnswer& answer = proxy.follow(pose, organs);
     seconds.push_back(static_cast<float>(processor_seconds() - begin));

@@ -179,20 +179,49 @@ void Referee::check_values(const ToolPose& hand, const ProxyAnswer& answer) {
   if (trocar > kRounding) blame(tally_.inconsistent, in_mm("the trocar is wrong by", trocar));
 }
 
-/// Returns the distance [m]. It is exact up to where the proxy counts as being at the clearance.
-double Referee::check_distance(const std::vector<PlacedCore>& tool, const Organ& organ,
-                               ProxyStatus state) {
-  const double bound = settings_.clearance + 2.0 * precision(settings_.clearance);
-  const double distance = organ.oracle.distance(tool, bound);
+/// Checks the distance of some parts of the tool, which have the same clearance [m]. Returns how
+/// far they are beyond it, divided by the precision. It is exact up to 2.
+double Referee::check_distance(const std::vector<PlacedCore>& parts, const Organ& organ,
+                               double clearance, ProxyStatus state) {
+  const double distance = organ.oracle.distance(parts, clearance + 2.0 * precision(clearance));
+  const double beyond = (distance - clearance) / precision(clearance);
   if (state == ProxyStatus::kSqueezed) {
     tally_.least_squeezed = std::min(tally_.least_squeezed, distance);
-    return distance;
+    return beyond;
   }
   tally_.least = std::min(tally_.least, distance);
-  if (distance < 0.5 * settings_.clearance - kRounding) {
-    blame(tally_.near, in_mm("too near:", distance));
+  if (distance < 0.5 * clearance - kRounding) blame(tally_.near, in_mm("too near:", distance));
+  return beyond;
+}
+
+/// The same for the whole tool.
+double Referee::check_distances(const ProxyOrgan& of, const Organ& organ,
+                                const ProxyAnswer& answer) {
+  const ToolPose pose = of.T_organ_proxy * answer.proxy;
+  if (of.clearances.empty()) {
+    return check_distance(placed_cores(tool_.radius, tool_.links, pose), organ, settings_.clearance,
+                          answer.state);
   }
-  return distance;
+  double beyond = std::numeric_limits<double>::infinity();
+  for (std::size_t part = tool_.radius > 0.0 ? 0 : 1; part < of.clearances.size(); ++part) {
+    if (of.clearances[part] == 0.0) continue;
+    ToolPose of_part{pose.axis, {}, {}};
+    if (part > 0) of_part.links = {pose.links[part - 1]};
+    const auto cores = part == 0 ? placed_cores(tool_.radius, {}, of_part)
+                                 : placed_cores(0.0, {tool_.links[part - 1]}, of_part);
+    beyond = std::min(beyond, check_distance(cores, organ, of.clearances[part], answer.state));
+  }
+  return beyond;
+}
+
+/// The tool without the parts that an organ does not hold.
+ProxyTool Referee::held_by(const ProxyOrgan& organ) const {
+  ProxyTool held = tool_;
+  for (std::size_t part = 0; part < organ.clearances.size(); ++part) {
+    if (organ.clearances[part] > 0.0) continue;
+    part == 0 ? void(held.radius = 0.0) : held.links[part - 1].parts.clear();
+  }
+  return held;
 }
 
 void Referee::check_passage(const std::vector<ShaftAxis>& lines, const Organ& organ) {
@@ -228,10 +257,12 @@ void Referee::check_way(const ToolPose& hand, const std::vector<ProxyOrgan>& org
   if (tally_.ticks % kTicksPerWayCheck != 0 || !tool_.links.empty()) return;
   bool is_clear = answer.state == ProxyStatus::kTouching;
   for (std::size_t i = 0; i < organs.size() && is_clear; ++i) {
+    const std::vector<double>& own = organs[i].clearances;
     const ToolPose from = organs[i].T_organ_proxy * answer.proxy;
     const ToolPose to = organs[i].T_organ_proxy * hand;
-    is_clear = !organs_[i].oracle.is_passed({{from.axis, to.axis}}, 1.0, 1.0,
-                                            tool_.radius + 2.0 * settings_.clearance);
+    is_clear = !organs_[i].oracle.is_passed(
+        {{from.axis, to.axis}}, 1.0, 1.0,
+        tool_.radius + 2.0 * (own.empty() ? settings_.clearance : own[0]));
   }
   clear_ways_ = is_clear ? clear_ways_ + 1 : 0;
   if (clear_ways_ >= kMostClearWays) {
@@ -257,21 +288,18 @@ void Referee::check(const ToolPose& hand, bool jumped, const std::vector<ProxyOr
     return;
   }
   check_values(hand, answer);
-  double distance = std::numeric_limits<double>::infinity();
+  double beyond = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < organs.size(); ++i) {
     const ToolPose pose = organs[i].T_organ_proxy * answer.proxy;
-    const std::vector<ShaftAxis> lines = skeleton(tool_, pose);
-    const std::vector<PlacedCore> cores = placed_cores(tool_.radius, tool_.links, pose);
-    distance = std::min(distance, check_distance(cores, organs_[i], answer.state));
+    const std::vector<ShaftAxis> lines = skeleton(held_by(organs[i]), pose);
+    beyond = std::min(beyond, check_distances(organs[i], organs_[i], answer));
     if (!answer.is_placed_anew && !organs_[i].lines.empty()) check_passage(lines, organs_[i]);
     if (is_closed[i] && (answer.is_placed_anew || tally_.ticks % kTicksPerSideCheck == 0)) {
       check_side(lines, organs_[i]);
     }
     organs_[i].lines = lines;
   }
-  const bool is_precise =
-      std::abs(distance - settings_.clearance) <= precision(settings_.clearance);
-  if (answer.state == ProxyStatus::kTouching && is_precise) ++tally_.at_clearance;
+  if (answer.state == ProxyStatus::kTouching && std::abs(beyond) <= 1.0) ++tally_.at_clearance;
   check_squeeze(hand, organs, answer);
   check_way(hand, organs, answer);
 }

@@ -59,7 +59,10 @@ class Referee {
 
   void count_state(bool jumped, const ProxyAnswer& answer);
   void check_values(const ToolPose& hand, const ProxyAnswer& answer);
-  double check_distance(const std::vector<PlacedCore>& tool, const Organ& organ, ProxyStatus state);
+  double check_distance(const std::vector<PlacedCore>& parts, const Organ& organ, double clearance,
+                        ProxyStatus state);
+  double check_distances(const ProxyOrgan& of, const Organ& organ, const ProxyAnswer& answer);
+  ProxyTool held_by(const ProxyOrgan& organ) const;
   void check_passage(const std::vector<ShaftAxis>& lines, const Organ& organ);
   void check_squeeze(const ToolPose& hand, const std::vector<ProxyOrgan>& organs,
                      const ProxyAnswer& answer);

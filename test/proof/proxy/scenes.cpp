@@ -229,4 +229,13 @@ ProxyScene make_proxy_scene(const std::string& name, Random& random) {
   return scene;
 }
 
+std::vector<double> random_clearances(const ProxyTool& tool, Random& random) {
+  std::vector<double> clearances{random.scale(3e-5, 3e-3)};
+  for (std::size_t link = 0; link < tool.links.size(); ++link) {
+    const bool is_ignored = (link > 0 || tool.radius > 0.0) && random.chance(0.2);
+    clearances.push_back(is_ignored ? 0.0 : random.scale(3e-5, 3e-3));
+  }
+  return clearances;
+}
+
 }  // namespace organ_collision::oracle

@@ -90,6 +90,13 @@ TEST(ProxyRefusal, OfAHandOrAnOrganChangesNothing) {
       {"'organ'", [](Hand&, Organs& organs) { organs[0].shape = nullptr; }},
       {"surface", [](Hand&, Organs& organs) { organs[0].keep = Side::kOnSurface; }},
       {"'organ'", [](Hand&, Organs& organs) { organs[0].T_organ_proxy.translation().x() = kNan; }},
+      {"clearances",
+       [](Hand&, Organs& organs) {
+         organs[0].clearances = {1e-3, 1e-3};
+       }},
+      {"-1", [](Hand&, Organs& organs) { organs[0].clearances = {-1.0}; }},
+      {"'organ'", [](Hand&, Organs& organs) { organs[0].clearances = {kInfinity}; }},
+      {"advanced", [](Hand&, Organs& organs) { organs[0].most_advance = kNan; }},
       {"rotation", [](Hand&, Organs& organs) { organs[0].T_organ_proxy.linear() *= 2.0; }}};
   const ProxyTool tool = shaft_tool();
   const Organs organs = {organ_of(grid_surface(20))};

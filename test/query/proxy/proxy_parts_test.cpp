@@ -316,7 +316,7 @@ TEST(ProxyMotion, StaysWhereItIsFreeWhenTheTestsOfATickAreUsedUp) {
   Tissue tissue(tool, PickerKind::kCpu);
   const auto mobility = make_mobility(tool);
   ProxyMotion motion(*mobility, tissue);
-  motion.set_clearance(kClearance);
+  motion.set_clearance({kClearance});
   const ProxyOrgan organ = organ_of(sphere(60, 90, kRadius));
   const std::vector<OrganTick> organs = {resting(organ)};
   tissue.set_organs(organs);
