@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws guard_lag.svg, a figure of doc/haptics.md: how far a tool is from tissue that moves, at the tissue's true time,
+"""Draws guard_lag.png, a figure of doc/haptics.md: how far a tool is from tissue that moves, at the tissue's true time,
 with the parameter guard_lag and without it. Runs haptic_proxy.
 
 Usage: . devel/setup.bash && doc/figures/guard_lag.py
@@ -86,7 +86,7 @@ def main():
     axes.set(xlabel='time [s], one breath of tissue that moves at up to 31 mm/s', ylabel='true distance [mm]')
     axes.set_ylim(0, None)
     axes.legend(frameon=False, loc='lower right')
-    style.save(figure, os.path.join(HERE, 'guard_lag'))
+    style.save_picture(figure, os.path.join(HERE, 'guard_lag.png'))
     sys.stdout.flush()
 
 
