@@ -30,7 +30,7 @@ from support.processes import NodeStarter, program
 LONG = 90.0  # [s]
 TESTED = {'ambf/ambf', 'sofa/sofa', 'start', 'mesh_adapter', 'two_hosts', 'haptics', 'dvrk', 'fem_tissue', 'forces',
           'numpy', 'sculpt'}
-ELSEWHERE = {'grasper', 'plan'}  # robots.test
+ELSEWHERE = {'grasper', 'plan', 'guarded_arm'}  # robots.test, guarded_arm.test
 FEM_STEP = 0.004  # [s] of fem_tissue
 CLAY, CELL, BALL = (65, 45), 0.001, 0.006  # vertices of the top of sculpt.py's block; [m], [m] radius
 
