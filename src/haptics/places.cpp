@@ -81,10 +81,13 @@ std::vector<ProxyContact> places_of(const ProxyReport& report,
   std::stable_sort(all.begin(), all.end(),
                    [](const auto& a, const auto& b) { return a.distance < b.distance; });
   for (const ProxyContact& place : all) add(place, different);
-  // Where there are more places than a state has, those that bear a force stay.
+  // Where there are more places than a state has, those that bear a force stay, and the nearest one
+  // of each link: otherwise a controller would not know that another link comes near.
   for (auto at = different.end(); different.size() > kMostPlaces && at != different.begin();) {
     --at;
-    if (to_eigen(at->force).isZero(0.0)) at = different.erase(at);
+    const bool is_nearest = std::none_of(
+        different.begin(), at, [&](const auto& nearer) { return nearer.link == at->link; });
+    if (!is_nearest && to_eigen(at->force).isZero(0.0)) at = different.erase(at);
   }
   return different;
 }

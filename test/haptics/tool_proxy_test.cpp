@@ -357,6 +357,32 @@ TEST_F(ToolProxyTest, AClearanceRisesAtItsSpeedAndFallsAtOnce) {
   }
 }
 
+TEST_F(ToolProxyTest, AStateWithTooManyPlacesHasTheNearestOneOfEachLink) {
+  ToolProxy proxy(tool_, parameters_);
+  press(proxy, 0.0);
+  ProxyReport report = follow(proxy, 0.0);
+  ASSERT_FALSE(report.answer->contacts.empty());
+  ProxyAnswer crowded = *report.answer;
+  const ProxyFace place = crowded.contacts[0];
+  crowded.contacts.clear();
+  for (int i = 0; i < 60; ++i) {
+    ProxyFace& at = crowded.contacts.emplace_back(place);
+    at.contact.link = i < 50 ? 0 : i - 49;
+    at.contact.point.x() += 1e-3 * i;
+    at.contact.depth = -1e-3 * (i + 1);
+    at.load = 0.0;
+  }
+  report.answer = &crowded;
+  const std::vector<ProxyContact> places = state_of(report).contacts;
+  EXPECT_EQ(places.size(), 32U);
+  for (int link = 0; link <= 10; ++link) {
+    EXPECT_TRUE(std::any_of(places.begin(), places.end(), [&](const ProxyContact& at) {
+      return at.link == link;
+    })) << link;
+  }
+  EXPECT_NEAR(places[21].distance, 0.022, 1e-9) << "of the others, the nearest stay";
+}
+
 /// Tissue rises by 31 mm/s from 10 mm below a hand, in shapes at 60 Hz.
 class RisingTissueTest : public ToolProxyTest {
  protected:
