@@ -204,12 +204,16 @@ void Measurement::print() const {
 
 int run(int argc, char** argv) {
   const std::string tool = argc == 4 ? argv[2] : "";
+  const bool is_asked =
+      argc == 2 && (argv[1] == std::string("--help") || argv[1] == std::string("-h"));
   if (tool != "shaft" && tool != "arm") {
-    std::cerr << "clearance_benchmark FACES shaft|arm TICKS\n"
-                 "Leads a tool through an ellipsoid whose surface waves, and prints the processor "
-                 "time of the ticks of its\nhaptic proxy at clearances of 0.1, 2, 5 and 10 mm. "
-                 "FACES: 10000, 100000, 200000 or 1000000.\n";
-    return 2;
+    (is_asked ? std::cout : std::cerr)
+        << "Usage: clearance_benchmark FACES shaft|arm TICKS\n"
+           "Leads a tool through an ellipsoid whose surface waves, and prints the processor time "
+           "of "
+           "the ticks of its\nhaptic proxy at clearances of 0.1, 2, 5 and 10 mm. FACES: 10000, "
+           "100000, 200000 or 1000000.\n";
+    return is_asked ? 0 : 2;
   }
   const GuardedTool kind = tool == "arm" ? GuardedTool::kArm : GuardedTool::kShaft;
   Measurement measurement(kind, std::strtoul(argv[1], nullptr, 10));

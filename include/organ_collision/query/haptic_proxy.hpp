@@ -95,7 +95,7 @@ struct ProxyOrgan {
   /// frame, since the shape was measured. The clearance at the contact grows by it, up to
   /// `most_advance`. Only called within follow(). Null: the shape is not late.
   std::function<double(const FaceContact&)> advance = {};
-  double most_advance = 0.0;
+  double most_advance = 0.0;  ///< [m] the most that `advance` counts
 };
 
 /// A face near a proxy, and the load that it bears.
