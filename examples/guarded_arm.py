@@ -39,7 +39,7 @@ def minimum(H, c, A, b):
     inverse = np.linalg.inv(np.linalg.cholesky(H))
     free, rows = inverse.T @ inverse @ c, -A @ inverse.T
     E, f = np.vstack([rows.T, A @ free - b]), np.append(np.zeros(len(c)), 1.0)
-    rest = E @ nnls(E, f)[0] - f
+    rest = E @ nnls(E, f, 1000)[0] - f
     return free - inverse.T @ rest[:-1] / rest[-1] if np.linalg.norm(rest) > 1e-6 else None
 
 
@@ -122,7 +122,7 @@ class Controller:
     def tick(self, now):
         state, arm = self.state, self.arm
         age = (now - state.header.stamp).to_sec()
-        if age > self.lost or state.state == ProxyState.NO_ANSWER:
+        if age > self.lost or state.state == ProxyState.NO_ANSWER or state.message:
             rospy.logwarn_throttle(1, 'the arm stands: the last state is %.2f s old. %s' % (age, state.message))
         elif state.header.stamp >= self.moved:  # Otherwise the state is about the joints before the last motion.
             self.moved, self.seconds = now, self.seconds + 1.0 / RATE  # One period for each state, however late it is.

@@ -78,17 +78,20 @@ std::vector<ProxyContact> places_of(const ProxyReport& report,
     const bool bears = contact.load > 0.0 && force != forces.end();
     all.push_back(place_at(report, contact, bears ? force->second : Vector3d::Zero()));
   }
+  const auto spare = [](const ProxyContact& place) { return place.distance - place.clearance; };
   std::stable_sort(all.begin(), all.end(),
-                   [](const auto& a, const auto& b) { return a.distance < b.distance; });
+                   [&](const auto& a, const auto& b) { return spare(a) < spare(b); });
   for (const ProxyContact& place : all) add(place, different);
-  // Where there are more places than a state has, those that bear a force stay, and the nearest one
-  // of each link: otherwise a controller would not know that another link comes near.
+  // Where there are more places than a state has, those stay that bear a force or leave the tool
+  // the least way. For each link, one stays: a controller would otherwise not know that it is near.
   for (auto at = different.end(); different.size() > kMostPlaces && at != different.begin();) {
     --at;
     const bool is_nearest = std::none_of(
         different.begin(), at, [&](const auto& nearer) { return nearer.link == at->link; });
     if (!is_nearest && to_eigen(at->force).isZero(0.0)) at = different.erase(at);
   }
+  std::stable_sort(different.begin(), different.end(),
+                   [](const auto& a, const auto& b) { return a.distance < b.distance; });
   return different;
 }
 

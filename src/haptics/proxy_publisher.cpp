@@ -62,7 +62,7 @@ ProxyState state_of(const ProxyReport& report) {
     state.placed_anew = report.answer->is_placed_anew;
     state.pull = to_vector(report.answer->pull);
     for (const TissueMotion& motion : report.scene->motions) {
-      state.lag_sec = std::max(state.lag_sec, motion.lag_sec);
+      state.lag_sec = std::max({state.lag_sec, motion.lag_sec, motion.frame_lag_sec});
     }
     state.contacts = places_of(report, report.answer->contacts);
     state.hand_contacts = places_of(report, report.answer->hand_contacts);

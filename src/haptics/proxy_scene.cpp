@@ -39,34 +39,42 @@ Vector3d way_of(const std::vector<ProxyOrgan>& before, const ProxyOrgan& now, st
   return place(now) - place(*then);
 }
 
+/// [m/s] The part of tissue_velocity() that comes from the organ's shapes.
+Vector3d shape_velocity(const ProxyScene& scene, std::size_t organ, const FaceContact& contact) {
+  const TissueMotion& motion = scene.motions[organ];
+  if (!motion.shape_before) return Vector3d::Zero();
+  return scene.organs[organ].T_organ_proxy.linear().transpose() *
+         velocity_between(*motion.shape_before, *motion.shape_after, motion.shape_sec, contact.face,
+                          contact.barycentric);
+}
+
+/// [m/s] The part that comes from the organ's frame.
+Vector3d frame_velocity(const ProxyScene& scene, std::size_t organ, const FaceContact& contact) {
+  const TissueMotion& motion = scene.motions[organ];
+  if (!motion.T_before) return Vector3d::Zero();
+  const Eigen::Isometry3d& T_now = scene.organs[organ].T_organ_proxy;
+  const Vector3d before = motion.T_before->inverse() * (T_now * contact.point);
+  return (contact.point - before) / kVelocitySec;
+}
+
 }  // namespace
 
 Vector3d tissue_velocity(const ProxyScene& scene, std::size_t organ, const FaceContact& contact) {
-  const ProxyOrgan& now = scene.organs[organ];
-  const TissueMotion& motion = scene.motions[organ];
-  Vector3d velocity = Vector3d::Zero();
-  if (motion.shape_before) {
-    velocity += now.T_organ_proxy.linear().transpose() *
-                velocity_between(*motion.shape_before, *motion.shape_after, motion.shape_sec,
-                                 contact.face, contact.barycentric);
-  }
-  if (motion.T_before) {
-    const Vector3d before = motion.T_before->inverse() * (now.T_organ_proxy * contact.point);
-    velocity += (contact.point - before) / kVelocitySec;
-  }
-  return velocity;
+  return shape_velocity(scene, organ, contact) + frame_velocity(scene, organ, contact);
 }
 
 void guard_lag(const ProxyScene& scene, std::size_t organ, ProxyOrgan& guarded) {
   constexpr double kMostAdvance = 0.02;  // [m] The search goes so far beyond the clearance.
   const TissueMotion& motion = scene.motions[organ];
-  if (motion.lag_sec == 0.0 || (!motion.shape_before && !motion.T_before)) return;
+  const bool has_late_shape = motion.shape_before && motion.lag_sec > 0.0;
+  if (!has_late_shape && motion.frame_lag_sec == 0.0) return;
   guarded.advance = [&scene, organ](const FaceContact& contact) {
-    return -scene.motions[organ].lag_sec *
-           contact.normal.dot(tissue_velocity(scene, organ, contact));
+    const TissueMotion& late = scene.motions[organ];
+    return -contact.normal.dot(late.lag_sec * shape_velocity(scene, organ, contact) +
+                               late.frame_lag_sec * frame_velocity(scene, organ, contact));
   };
   guarded.most_advance = kMostAdvance;
-  if (motion.T_before) return;
+  if (motion.frame_lag_sec > 0.0) return;
   const auto vertices = [](const TriangleMesh& mesh) {
     return Eigen::Map<const Eigen::ArrayXf>(mesh.vertices().data(),
                                             static_cast<Eigen::Index>(mesh.vertices().size()));

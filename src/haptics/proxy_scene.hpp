@@ -38,9 +38,10 @@ class ProxyFrame {
 struct TissueMotion {
   /// The latest shape, and OrganShape::moves_from(). Null: the shape rests.
   std::shared_ptr<const TriangleMesh> shape_before = nullptr, shape_after = nullptr;
-  double shape_sec = 0.0;                          ///< [s] between both shapes
-  ros::Time stamp = {};                            ///< of the shape that the organ has in the scene
-  double lag_sec = 0.0;                            ///< [s] how old this shape is
+  double shape_sec = 0.0;      ///< [s] between both shapes
+  ros::Time stamp = {};        ///< of the shape that the organ has in the scene
+  double lag_sec = 0.0;        ///< [s] how old this shape is; 0 if the organ does not change shape
+  double frame_lag_sec = 0.0;  ///< [s] how old the pose of the organ's frame is; 0 if it rests
   std::optional<Eigen::Isometry3d> T_before = {};  ///< T_organ_proxy kVelocitySec ago; empty: rests
 };
 
@@ -60,7 +61,7 @@ Eigen::Vector3d tissue_velocity(const ProxyScene& scene, std::size_t organ,
                                 const FaceContact& contact);
 
 /// Sets ProxyOrgan::advance of an organ of the scene: the speed at which the tissue comes towards
-/// the tool times TissueMotion::lag_sec. `advance` refers to the scene.
+/// the tool times the lag of its shape and of its frame. `advance` refers to the scene.
 void guard_lag(const ProxyScene& scene, std::size_t organ, ProxyOrgan& guarded);
 
 /// What tissue does to a proxy that it holds: the mean over all places that bear a load, along

@@ -96,10 +96,15 @@ ProxyScene HapticProxyNode::scene_of(const AwaitedShape* awaited, Time now) {
     const auto kept = parameters_.keep.find(scene.sources[i]->name());
     if (kept != parameters_.keep.end()) scene.organs[i].keep = kept->second;
     if (awaited) continue;
-    const ros::Time stamp = scene.motions[i].stamp, received = scene.sources[i]->latest().received;
-    double& lag = scene.motions[i].lag_sec;
-    lag = std::max(0.0, ros::Time::now().toSec() - (stamp.isZero() ? received : stamp).toSec());
-    if (parameters_.organ_interpolation) lag += shapes_.late(*scene.sources[i], now);
+    TissueMotion& motion = scene.motions[i];
+    const auto age = [time = ros::Time::now()](const ros::Time& stamp) {
+      return std::max(0.0, time.toSec() - stamp.toSec());
+    };
+    if (motion.T_before && !scene.stamps[i].isZero()) motion.frame_lag_sec = age(scene.stamps[i]);
+    if (!motion.shape_before) continue;
+    motion.lag_sec =
+        age(motion.stamp.isZero() ? scene.sources[i]->latest().received : motion.stamp);
+    if (parameters_.organ_interpolation) motion.lag_sec += shapes_.late(*scene.sources[i], now);
   }
   return scene;
 }

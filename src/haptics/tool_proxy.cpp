@@ -65,7 +65,8 @@ ToolProxy::ToolProxy(const Tool& tool, const HapticProxyParameters& parameters)
 }
 
 /// The organs of the scene, with their present clearances. A clearance falls at once. It rises at
-/// clearance_speed, and by at most a half in a tick, so that the proxy is not squeezed.
+/// clearance_speed, and by at most a fifth in a tick: a proxy at 0.6 of its clearance, as far as a
+/// sweep lets it come, is then not squeezed.
 std::vector<ProxyOrgan> ToolProxy::organs_of(const ProxyScene& scene, Time now) {
   const std::chrono::duration<double> passed = now - std::exchange(followed_, now);
   std::vector<ProxyOrgan> organs = scene.organs;
@@ -76,7 +77,7 @@ std::vector<ProxyOrgan> ToolProxy::organs_of(const ProxyScene& scene, Time now) 
       double clearance = clearance_of(parameters_, scene.sources[i]->name(), parts_[part]);
       if (last != organs_.end()) {
         const double before = last->clearances[part];
-        const double rise = std::min(parameters_.clearance_speed * passed.count(), 0.5 * before);
+        const double rise = std::min(parameters_.clearance_speed * passed.count(), 0.2 * before);
         clearance = std::min(clearance, std::max(kLeastClearance, before + rise));
       }
       organs[i].clearances.push_back(clearance);
@@ -97,6 +98,7 @@ ProxyReport ToolProxy::follow(const Timed<ToolPose>& hand, const ProxyScene& sce
   const ros::Time stamp = hand.stamp.isZero() ? ros::Time::now() : hand.stamp;
   std::vector<OrganForce> target = forces(answer, scene, damping(answer, scene, stamp));
   organs_ = std::move(organs);
+  for (ProxyOrgan& organ : organs_) organ.advance = nullptr;  // It refers to the scene.
   is_lost_ = false;
   hand_ = hand.value;
   answer_ = &answer;

@@ -194,12 +194,11 @@ void NodeCore::reload(std_srvs::Trigger::Response& response) {
       const bool is_refused = !changes.kept[tool] && !tools[tool].fault.empty();
       if (is_refused) throw ToolError(tools[tool].fault);
     }
-    running_->release_tools(changes.kept);
-    in_node_thread([&] {
-      const bool changes_lists = table_.read_lists(values);
-      exchange_tools(tools, parameters, misspelt, changes.kept);
-      if (changes_lists) running_->parameters_changed();
+    in_node_thread([&] {  // Before a tool is released: a list may be refused.
+      if (table_.read_lists(values)) running_->parameters_changed();
     });
+    running_->release_tools(changes.kept);
+    in_node_thread([&] { exchange_tools(tools, parameters, misspelt, changes.kept); });
     response.success = true;
     response.message = plain_text(changes.summary, kLongestMessage);
     ROS_INFO("tools are reloaded: %s", response.message.c_str());

@@ -252,6 +252,11 @@ TEST(HapticParameters, AListOfClearancesStaysUntilAnotherOneOrANumberComes) {
   EXPECT_THROW(table.read_lists(all), ParameterError);
   EXPECT_EQ(clearance_of(p, "liver", "jaw"), 3e-3);
   EXPECT_EQ(clearance_of(p, "liver", "wrist"), 5e-4);
+  for (const XmlRpcValue& refused : {XmlRpcValue(5.0), XmlRpcValue("5 mm")}) {
+    all["clearance"] = refused;
+    EXPECT_THROW(table.read_lists(all), ParameterError);
+    EXPECT_EQ(clearance_of(p, "liver", "jaw"), 3e-3) << "a refused number leaves the list";
+  }
   change["clearance"] = 7e-4;
   table.change(change);
   EXPECT_EQ(clearance_of(p, "liver", "jaw"), 7e-4);

@@ -368,6 +368,7 @@ TEST_F(ToolProxyTest, AStateWithTooManyPlacesHasTheNearestOneOfEachLink) {
   for (int i = 0; i < 60; ++i) {
     ProxyFace& at = crowded.contacts.emplace_back(place);
     at.contact.link = i < 50 ? 0 : i - 49;
+    if (i == 45) at.clearance = 0.1;  // The tool has to give way to it.
     at.contact.point.x() += 1e-3 * i;
     at.contact.depth = -1e-3 * (i + 1);
     at.load = 0.0;
@@ -380,7 +381,27 @@ TEST_F(ToolProxyTest, AStateWithTooManyPlacesHasTheNearestOneOfEachLink) {
       return at.link == link;
     })) << link;
   }
-  EXPECT_NEAR(places[21].distance, 0.022, 1e-9) << "of the others, the nearest stay";
+  EXPECT_NEAR(places[20].distance, 0.021, 1e-9) << "of the others, the nearest stay";
+  EXPECT_NEAR(places[21].distance, 0.046, 1e-9) << "and what is nearer than its clearance";
+  EXPECT_TRUE(std::is_sorted(places.begin(), places.end(),
+                             [](const auto& a, const auto& b) { return a.distance < b.distance; }));
+}
+
+TEST_F(ToolProxyTest, TheLagOfAFrameIsThatOfItsPoseAndNotOfAMeshThatWasSentLongAgo) {
+  FaceContact contact;
+  contact.normal = Vector3d(0.0, 0.0, -1.0);
+  scene_.motions.resize(1);
+  TissueMotion& motion = scene_.motions[0];
+  ProxyOrgan guarded;
+  guard_lag(scene_, 0, guarded);
+  EXPECT_FALSE(guarded.advance) << "the organ rests";
+  motion.T_before = scene_.organs[0].T_organ_proxy * Eigen::Translation3d(0.0, 0.0, 1e-4);
+  motion.frame_lag_sec = 0.02;
+  guard_lag(scene_, 0, guarded);
+  ASSERT_TRUE(guarded.advance);
+  const double speed = tissue_velocity(scene_, 0, contact).z();
+  EXPECT_GT(speed, 1e-4);
+  EXPECT_NEAR(guarded.advance(contact), 0.02 * speed, 1e-12);
 }
 
 /// Tissue rises by 31 mm/s from 10 mm below a hand, in shapes at 60 Hz.

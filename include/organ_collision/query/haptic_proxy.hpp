@@ -139,7 +139,8 @@ struct ProxyAnswer {
   /// Whether the proxy was placed anew in this tick. The reasons are: it is the first tick, the
   /// hand jumped, tissue moved through the proxy, or new tissue came where the proxy was.
   bool is_placed_anew = false;
-  /// Why the proxy was placed anew, or why there is no proxy. Otherwise empty.
+  /// Why the proxy was placed anew, or why there is no proxy, or that contacts may be missing
+  /// because the work of a tick is bounded. Otherwise empty.
   std::string message;
   /// [m] The force on the hand divided by the stiffness: from `center` to the centre of the proxy.
   Eigen::Vector3d pull = Eigen::Vector3d::Zero();

@@ -92,9 +92,12 @@ double Row::value_in(const ParameterGroup& all) const {
 }
 
 void Row::read(const ParameterGroup& all) const {
+  const bool has_list = list && all.has_list(name), has_value = is_flag() || is_number();
+  const double read =
+      has_value && !has_list ? value_in(all) : 0.0;  // May throw, before any change.
   if (list) list(all);
-  if (all.has_list(name) && list) return;
-  is_flag() || is_number() ? set_value(value_in(all)) : std::get<Read>(member)(all);
+  if (has_list) return;
+  has_value ? set_value(read) : std::get<Read>(member)(all);
 }
 
 HelpEntry Row::help() const {

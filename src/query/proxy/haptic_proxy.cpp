@@ -160,6 +160,11 @@ void HapticProxy::State::follow(const ToolPose& hand, const std::vector<ProxyOrg
     }
   }
   tick.answer.tests = tissue.tests_made();
+  if (tissue.is_used_up()) {
+    tick.answer.message += tick.answer.message.empty() ? "" : "; ";
+    tick.answer.message += "the work of this tick is used up: contacts may be missing";
+    if (tick.answer.state == ProxyStatus::kFree) tick.answer.state = ProxyStatus::kTouching;
+  }
   answer = std::move(tick.answer);
   place = std::move(tick.place);
   needle = std::move(tick.needle);
@@ -169,6 +174,7 @@ void HapticProxy::State::follow(const ToolPose& hand, const std::vector<ProxyOrg
   for (std::size_t i = 0; i < organs.size(); ++i) {
     last_organs[i].keep = tick.motions[i].keep;
     last_organs[i].clearances = tick.motions[i].clearances;
+    last_organs[i].advance = nullptr;  // Only follow() may call it.
   }
   last_clearance = tissue.clearance();
 }
@@ -282,7 +288,7 @@ void HapticProxy::State::set_clearances(Tick& tick) {
     for (std::size_t part = 0; organ.last && part < organ.clearances.size(); ++part) {
       const double own = organ.clearances[part], before = organ.last->clearances[part];
       if (own == 0.0 || !tick.place) continue;
-      if (before == 0.0) organ.is_new = true;
+      if (before == 0.0) organ.is_new = organ.holds_more = true;
       if (before == 0.0) continue;
       const double distance = last_clearance.distance(tick.place->clearance, before);
       proven = std::min(proven, now.scaled(distance, own));

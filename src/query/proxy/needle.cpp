@@ -48,6 +48,7 @@ std::optional<Needle> Needle::pierce(const ShaftAxis& proxy, const ShaftAxis& ha
 Needle::Fate Needle::follow(const ShaftAxis& hand, const std::vector<ProxyOrgan>& organs,
                             const ProxySettings& settings, Tissue& tissue) {
   if (!find_entry(organs)) return Fate::kLost;
+  if (tissue.clearance(entry_.organ, kShaft) == 0.0) return Fate::kPulledOut;
   const Vector3d to_entry = entry_.point - hand.trocar;
   const Vector3d direction = to_entry.normalized();
   const double entry = to_entry.norm();

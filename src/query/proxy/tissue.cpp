@@ -56,7 +56,7 @@ AskedTool Tissue::grow(const OrganTick& organ, double growth) {
   for (std::size_t part = 0; part < grown_by_.size(); ++part) {
     const double own = clearance(organ, static_cast<std::int32_t>(part) - 1);
     double& grown = grown_by_[part];
-    if (growth >= 0.0) grown = clearance_.distance(growth, own);
+    if (part == 0 || growth >= 0.0) grown = clearance_.distance(growth, own);
     if (part == 0) {
       if (tool_.radius > 0.0 && own > 0.0) radius = std::max(kAxisRadius, tool_.radius + grown);
       grown = radius - tool_.radius;
@@ -108,7 +108,7 @@ void Tissue::add(std::size_t organ, const FaceContact& found, double grown_by,
   contact.contact.normal = T_proxy_organ.linear() * found.normal;
   if (tick.given && tick.given->advance) {
     contact.clearance +=
-        std::clamp(tick.given->advance(contact.contact), 0.0, tick.given->most_advance);
+        std::max(0.0, std::min(tick.given->advance(contact.contact), tick.given->most_advance));
   }
   contacts.push_back(contact);
 }
@@ -209,7 +209,7 @@ bool Tissue::is_on_wrong_side(const ToolPose& pose, bool only_first) {
       const AxisPlacement& found = placement(organ, place, organ.topology);
       if (is_wrong(organ, found.tip) || is_wrong(organ, found.trocar)) return true;
       if (!found.crossings.empty()) return true;
-      if (only_first) break;
+      if (only_first && !organ.holds_more) break;
     }
   }
   return false;

@@ -42,6 +42,7 @@ struct OrganTick {
   Eigen::Isometry3d T_now = Eigen::Isometry3d::Identity();     ///< T_organ_proxy at the end
   Side keep = Side::kOutside;                                  ///< as ProxyOrgan::keep
   bool is_new = true;  ///< it has not been checked yet whether the proxy is on the side to keep
+  bool holds_more = false;  ///< it holds a part of the tool that it did not hold in the last tick
   std::vector<double> clearances = {};  ///< as ProxyOrgan::clearances; empty: the least clearance
   const ProxyOrgan* given = nullptr;    ///< has its `advance`; null: it is not late
   const ProxyOrgan* last = nullptr;     ///< the organ at the last tick; null: there was none
@@ -118,7 +119,7 @@ class Tissue {
   /// each part of each link, as an axis without a length. Parts that the organ does not hold have
   /// none.
   std::vector<ShaftAxis> places_of(const ToolPose& pose, const OrganTick& organ) const;
-  /// Whether one of these places, or the first one of each organ, is known to be on the side of the
+  /// Whether one of these places is known to be on the side of the
   /// organ that the proxy must not be on, or crosses its surface.
   bool is_on_wrong_side(const ToolPose& pose, bool only_first = false);
   /// The side of an organ on which a place begins.

@@ -128,6 +128,25 @@ TEST(ClearanceTable, AnOrganHoldsOnlyTheLinksThatItDoesNotIgnore) {
   }
 }
 
+TEST(ClearanceTable, ALinkInsideAnOrganThatIsToHoldItAgainIsPlacedAnew) {
+  // The right ball is deep in a small organ, and touches nothing of it. The left one is outside.
+  GridSurface surface = sphere(20, 30, 0.012);
+  for (std::size_t i = 0; i < surface.vertices.size(); i += 3) surface.vertices[i] += 0.015F;
+  ProxyOrgan organ = organ_of(surface, "organ");
+  const SurfaceTopology topology(organ.shape->faces(), organ.shape->vertices());
+  organ.topology = &topology;
+  HapticProxy proxy(TwoBalls::tool(), {});
+  organ.clearances = {0.0, 1e-4, 0.0};
+  for (int tick = 0; tick < 60; ++tick) {
+    const double height = std::max(0.0, 0.03 - 1e-3 * tick);
+    EXPECT_EQ(proxy.follow(TwoBalls::at(height), {organ}).state, ProxyStatus::kFree);
+  }
+  organ.clearances = {0.0, 1e-4, 1e-4};
+  const ProxyAnswer& answer = proxy.follow(TwoBalls::at(0.0), {organ});
+  EXPECT_TRUE(answer.is_placed_anew);
+  EXPECT_GT((answer.proxy.links[1].translation() - Vector3d(0.015, 0.0, 0.0)).norm(), 0.012);
+}
+
 TEST(ClearanceTable, AClearanceThatFallsLetsTheProxyGoAtOnceAndOneThatRisesDoesNotSqueezeIt) {
   ProxyOrgan floor = organ_of(flat_sheet(12), "floor");
   floor.clearances = {1e-3, 2e-3, 5e-4};
