@@ -130,8 +130,8 @@ class ToolProxy {
   ToolParameters tool_;
   const HapticProxyParameters& parameters_;
   HapticProxy proxy_;
-  bool tells_rows_ = true;
   WrenchLimiter limiter_;
+  bool tells_rows_ = true;
   bool lets_go_ = false;
   bool is_lost_ = true;  ///< there was no answer at the last call
   const ProxyAnswer* answer_ = nullptr;

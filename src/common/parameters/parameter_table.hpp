@@ -116,7 +116,7 @@ class ParameterTable {
 /// their defaults. Returns their table. Throws ParameterError.
 template <typename Parameters>
 ParameterTable load_parameters(Parameters& parameters, const ros::NodeHandle& private_node) {
-  const ParameterTable table = table_of(parameters);
+  ParameterTable table = table_of(parameters);
   table.read(all_parameters(private_node), parameters.misspelt);
   return table;
 }

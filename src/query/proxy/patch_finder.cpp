@@ -37,7 +37,7 @@ bool PatchFinder::find(const Step& step, const std::vector<Limits>& of_parts, st
                        std::vector<FaceContact>& contacts) {
   bool is_complete = true;
   for_each_part(step, [&](const ToolPart& part, const LegSpan& span) {
-    const Limits& limits = of_parts[static_cast<std::size_t>(part.link + 1)];
+    const Limits& limits = of_parts[part_index(part.link)];
     if (limits.distance == 0.0) return;
     const PartOnLeg moving(step, span, part);
     const OrganMotion organ = step.organ_motion(span);

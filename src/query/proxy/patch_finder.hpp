@@ -11,6 +11,11 @@
 
 namespace organ_collision {
 
+/// The place of a link, or of kShaft, in lists that have the shaft first and then each link.
+inline std::size_t part_index(std::int32_t link) {
+  return link == kShaft ? 0 : 1 + static_cast<std::size_t>(link);
+}
+
 /// Finds the nearest face of each locally convex patch of an organ near a tool at rest. FaceSearch
 /// leads to the nearest faces. A nearer face covers a farther one if the plane between the tool and
 /// the nearer face keeps the farther one as far from the tool, and both are near each other: a tool

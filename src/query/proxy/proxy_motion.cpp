@@ -416,7 +416,7 @@ std::vector<ToolPose> ProxyMotion::starts(const ToolPose& hand,
       const std::vector<ProxyCrossing> walls =
           tissue_.cross({from - length * line, from + length * line});
       for (std::size_t i = 1; i < walls.size(); ++i) {
-        ways.push_back(0.5 * (walls[i - 1].point + walls[i].point) - from);
+        ways.emplace_back(0.5 * (walls[i - 1].point + walls[i].point) - from);
       }
     }
   }

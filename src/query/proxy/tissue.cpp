@@ -44,8 +44,7 @@ Tissue::Tissue(const ProxyTool& tool, const PickerSettings& picker)
 double Tissue::least_growth() const { return -std::max(kAxisRadius, tool_.radius - kAxisRadius); }
 
 double Tissue::clearance(const OrganTick& organ, std::int32_t link) const {
-  return organ.clearances.empty() ? clearance_.rest
-                                  : organ.clearances[static_cast<std::size_t>(link + 1)];
+  return organ.clearances.empty() ? clearance_.rest : organ.clearances[part_index(link)];
 }
 
 /// The parts of the tool that an organ holds, grown. Without `links` if it holds none.
@@ -91,7 +90,7 @@ void Tissue::touch(const std::vector<ToolPose>& way, double growth,
         result_);
     count(result_.picked.drawn + result_.picked.undrawn);
     for (const FaceContact& found : result_.contacts) {
-      add(organ, found, grown_by_[static_cast<std::size_t>(found.link + 1)], contacts);
+      add(organ, found, grown_by_[part_index(found.link)], contacts);
     }
   }
 }
