@@ -189,8 +189,10 @@ void ToolProxy::change_frame(const std::string& frame, const Eigen::Isometry3d& 
 
 ProxySettings ToolProxy::settings() const {
   ProxySettings settings = proxy_settings(parameters_, tool_);
-  if (!tells_rows_) settings.row_reach = 0.0;
-  if (!tells_rows_) settings.hand_rows = false;
+  if (!tells_rows_) {
+    settings.row_reach = 0.0;
+    settings.hand_rows = false;
+  }
   return settings;
 }
 
