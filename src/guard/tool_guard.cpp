@@ -231,20 +231,21 @@ bool ToolGuard::lets_retreat(const GuardState& chosen, const Verdict& other) con
 /// [m/s] the speed from which the tool stops in time, less that of the tissue. See GuardState.msg,
 /// and the class.
 double ToolGuard::allowed_speed(double distance, double tissue, double now) const {
-  const double a = parameters_.deceleration, T = parameters_.latency;
+  const double a = parameters_.deceleration, latency = parameters_.latency;
   const double room = distance - parameters_.error;
   if (!(room > 0.0)) return 0.0;
   // [m] how far tool and tissue come together until the tool has stopped from this speed
   const auto way = [&](double speed) {
-    double sum = speed * T + 0.5 * speed * speed / a, end = now;
-    for (auto sent = sent_.rbegin(); sent != sent_.rend() && end > now - T; ++sent) {
-      const double length = end - std::max(sent->first, now - T);
+    double sum = speed * latency + 0.5 * speed * speed / a, end = now;
+    for (auto sent = sent_.rbegin(); sent != sent_.rend() && end > now - latency; ++sent) {
+      const double length = end - std::max(sent->first, now - latency);
       sum += length * std::max(0.0, sent->second + tissue - speed);
       end = sent->first;
     }
     return sum;
   };
-  double lowest = 0.0, highest = std::sqrt(a * a * T * T + 2.0 * a * room) - a * T;
+  double lowest = 0.0,
+         highest = std::sqrt(a * a * latency * latency + 2.0 * a * room) - a * latency;
   if (way(highest) <= room * (1.0 + 1e-9)) return std::max(0.0, highest - tissue);
   for (int i = 0; i < 40; ++i) {
     const double middle = 0.5 * (lowest + highest);
