@@ -6,11 +6,11 @@ import shlex
 import subprocess
 import unittest
 
-from program import CONTACTS_HEADER, PROGRAM, ProgramCase, motions_text
+from program import PROGRAM, ProgramCase, motions_text
 
 ORGAN = 'v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0.1 0.1 0.01\nf 1 2 3\nf 2 4 3\n'
 MOTION = '%s,swept,0,0,0.2,0.02,0.02,0.1,0.03,0.02,-0.01,0.005'
-MESH, MOTIONS, SHAPES = '--mesh organ.obj', ' --motions motions.csv', '--shapes shapes'
+MESH, MOTIONS = '--mesh organ.obj', ' --motions motions.csv'
 FILES = MESH + MOTIONS
 
 # Arguments, how the line begins, and words in it.
@@ -18,25 +18,21 @@ QUERY_OFFLINE = [
     ('--mesh broken.obj' + MOTIONS, 'broken.obj:4', 'a coordinate is nan; must be finite'),
     ('--mesh none.obj' + MOTIONS, 'none.obj', 'no such file'),
     ('--mesh .' + MOTIONS, '.', 'it is a folder'),
-    (FILES + ' --mesh-before other.obj', 'other.obj', 'face 1', '1 2 3', '1 3 2', 'organ.obj'),
     (MESH + ' --motions broken.csv', 'broken.csv:3', 'query "1"', 'line 2'),
     (MESH + ' --motions short.csv --jobs 3', 'short.csv:3', 'trocar', 'tip'),
     (MESH + ' --motions none.csv', 'none.csv', 'No such file'),
-    ('--shapes none' + MOTIONS, 'none', 'No such file'),
-    ('--shapes organ.obj' + MOTIONS, 'organ.obj', 'cannot be read: Not a directory'),
-    ('--shapes empty' + MOTIONS, 'empty', 'no OBJ file'),
-    ('', 'query_offline', "the option '--motions' is required but missing (--help explains)"),
+    (FILES + ' --mesh-before other.obj', 'other.obj', 'face 1', '1 2 3', '1 3 2', 'organ.obj'),
+    (FILES + ' --mesh-before fewer.obj', 'fewer.obj', 'has 4 vertices and 1 faces; organ.obj has 4 vertices and 2 faces'),
+    (FILES + ' --shapes organ.obj', 'query_offline', '--shapes is gone; give each step its --mesh and --mesh-before'),
+    (FILES + ' --gl egl', 'query_offline', '--gl is gone'),
     (MESH, 'query_offline', '--motions', 'missing'),
-    (MOTIONS, 'query_offline', '--mesh', '--shapes'),
+    (MOTIONS, 'query_offline', "the option '--mesh' is required but missing (--help explains)"),
     (FILES + ' --fast', 'query_offline', "unrecognised option '--fast' (--help explains)"),
     (FILES + ' --marg 1', 'query_offline', "unrecognised option '--marg'"),
     (FILES + ' more.csv', 'query_offline', 'too many positional options'),
     (FILES + ' ' + MESH, 'query_offline', "option '--mesh' cannot be specified more than once"),
     (FILES + ' --picker', 'query_offline', "the required argument for option '--picker' is missing"),
-    (FILES + ' --picker embree', 'query_offline', 'embree', 'feedback', 'select', 'cpu'),
-    (FILES + ' --gl glx', 'query_offline', 'glx', 'auto', 'osmesa', 'egl'),
-    (SHAPES + ' ' + FILES, 'query_offline', '--shapes', '--mesh', 'all shapes'),
-    (SHAPES + MOTIONS + ' --mesh-before organ.obj', 'query_offline', '--shapes', '--mesh-before')] + [
+    (FILES + ' --picker embree', 'query_offline', 'embree', 'feedback', 'select', 'cpu')] + [
     (FILES + ' --jobs ' + text, 'query_offline', '--jobs is %s; must be from 1 to 1024' % text) for text in ('0', '-2', '1025')] + [
     (FILES + ' --margin ' + text, 'query_offline', '--margin is %s; must be a finite number above 0, in metres' % text)
     for text in ('-0.01', '0', 'nan', 'inf')] + [
@@ -48,7 +44,7 @@ REPLAY = [
     ('--parameters p.yaml in.bag', 'replay', 'OUT.bag'),
     ('in.bag out.bag', 'replay', '--parameters'),
     ('--parameters p.yaml in.bag out.bag x', 'replay', 'too many positional options'),
-    ('--with-input=1 --parameters p.yaml in.bag out.bag', 'replay', "'--with-input' does not take any arguments"),
+    ('--with-input --parameters p.yaml in.bag out.bag', 'replay', '--with-input is gone; `rosbag play'),
     ('--parameters p.yaml --node ~x in.bag out.bag', 'replay', '"~x"'),
     ('--parameters p.yaml --node "a b" in.bag out.bag', 'replay', '"a b"'),
     ('--parameters p.yaml in.bag in.bag', 'replay', 'also the input'),
@@ -59,16 +55,14 @@ REPLAY = [
 class CommandLinesTest(ProgramCase):
     def setUp(self):
         super().setUp()
-        (self.folder / 'shapes').mkdir()
-        (self.folder / 'empty').mkdir()
         for name, text in (
             ('organ.obj', ORGAN),
             ('other.obj', ORGAN.replace('f 2 4 3', 'f 2 3 4')),
+            ('fewer.obj', ORGAN.replace('f 2 4 3', '')),
             ('broken.obj', ORGAN.replace('0.01', 'nan')),
             ('motions.csv', motions_text([MOTION % 1, MOTION % 2])),
             ('broken.csv', motions_text([MOTION % 1, MOTION % 1])),
             ('short.csv', motions_text([MOTION % 1, '2,paper_swept,0,0,1,0,0,1,0,0,1,0.005'])),
-            ('shapes/0.obj', ORGAN), ('shapes/1.obj', ORGAN),
             ('p.yaml', 'tools: []\n'), ('in.bag', 'kept'), ('x.bag.incomplete', 'kept'),
         ):
             self.write(name, text)
@@ -93,38 +87,14 @@ class CommandLinesTest(ProgramCase):
 
     def test_help_alone_matters(self):
         for name, words in (
-            ('QUERY_OFFLINE', '--mesh --shapes --motions --jobs --picker --gl --margin --blank-lines'),
-            ('REPLAY', 'IN.bag OUT.bag --parameters --node --with-input'),
+            ('QUERY_OFFLINE', '--mesh --motions --jobs --picker --margin --blank-lines'),
+            ('REPLAY', 'IN.bag OUT.bag --parameters --node'),
         ):
             for arguments in ['-h'], ['--size', 'nonsense', '--help']:
                 done = self.run_program(*arguments, program=os.environ[name])
                 self.assertEqual((done.returncode, done.stderr), (0, ''))
                 for word in words.split():
                     self.assertIn(word + ' ', done.stdout)
-
-    def test_as_many_motions_as_shapes(self):
-        self.write('shapes/2.obj', ORGAN)
-        self.assert_refused(SHAPES + MOTIONS, 'motions.csv', '2 motions', '3 OBJ files')
-        right = self.run_program(*shlex.split(FILES)).stdout
-        for motions, said in (
-            (2, 'standard input: the motions end; shapes without a motion: 1; each shape needs one\n'),
-            (4, 'standard input:4: there is no shape for this motion; must have as many shapes\n'),
-        ):
-            text = ''.join(MOTION % (i + 1) + '\n' for i in range(motions))
-            done = self.run_program(*shlex.split(SHAPES + ' --motions -'), text=text)
-            self.assertEqual((done.returncode, done.stderr), (2, said))
-            self.assertTrue(done.stdout.startswith(right))
-
-    def test_a_bad_later_shape(self):
-        """The steps before it are answered."""
-        right = self.run_program(*shlex.split(FILES)).stdout
-        before = ''.join(row for row in right.splitlines(True) if row[0] != '2')
-        self.assertTrue(before.startswith(CONTACTS_HEADER) and before != right)
-        self.write('shapes/1.obj', ORGAN.replace('f 2 4 3', 'f 2 3 4'))
-        for jobs in '1', '3':
-            self.assert_refused(SHAPES + MOTIONS + ' --jobs ' + jobs, 'shapes/1.obj', '1 3 2', output=before)
-        self.write('shapes/0.obj', 'v 0 0 0\n')
-        self.assert_refused(SHAPES + MOTIONS, 'shapes/0.obj', 'no triangles')
 
     def test_opengl_that_does_not_work(self):
         """A forward compatible context has no picking mode. Mesa ends the process if it does not know the driver."""
@@ -141,11 +111,11 @@ class CommandLinesTest(ProgramCase):
         reader, writer = os.pipe()
         os.close(reader)
         commands = [(name, [os.environ[name.upper()], '--help']) for name in ('query_offline', 'replay')]
-        commands += [('query_offline', [PROGRAM, *shlex.split(FILES)]), ('organ_mesh_adapter', [os.environ['NODE'], '--help'])]
+        commands += [('query_offline', [PROGRAM, *shlex.split(FILES)]), ('tool_guard', [os.environ['NODE'], '--help'])]
         for stdout, reason in (open('/dev/full', 'w'), 'No space left on device'), (os.fdopen(writer, 'w'), 'Broken pipe'):
             with stdout:
                 for name, command in commands:
-                    if reason == 'Broken pipe' and name == 'organ_mesh_adapter':
+                    if reason == 'Broken pipe' and name == 'tool_guard':
                         continue  # Like most programs, it ends silently when its reader has gone.
                     done = subprocess.run(command, cwd=self.folder, stdout=stdout, stderr=subprocess.PIPE, text=True, timeout=100)
                     self.assertEqual(done.returncode, 1, command)

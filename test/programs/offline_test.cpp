@@ -1,9 +1,9 @@
-// What query_offline reads and writes: shapes, files of motions, and the CSV lines of answers.
-// query_offline_test.py compares whole runs of the program.
+// What query_offline reads and writes: files of motions, and the CSV lines of answers.
+// query_offline_answers_test.py compares whole runs of the program.
 #include <gtest/gtest.h>
 
 #include "programs/query_offline/contacts_csv.hpp"
-#include "programs/query_offline/shapes.hpp"
+#include "programs/query_offline/motions.hpp"
 #include "temporary_files.hpp"
 
 namespace organ_collision {
@@ -12,25 +12,6 @@ namespace {
 /// The beginning of a file, and the end of the message that refuses it.
 using Refusals = std::vector<std::pair<std::string, std::string>>;
 
-TEST(Shape, of_another_file_has_the_same_faces) {
-  const std::string kVertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.5\nv -1 0.25 2\n";
-  const TemporaryFile file(kVertices + "f 1 2 3\nf 2 3 4\n", ".obj");
-  TriangleMesh mesh = mesh_of(file.path());
-  const auto move = [&](const std::string& other) { move_to(other, mesh, file.path()); };
-  const TemporaryFile same("v 0 0 7\n" + kVertices.substr(8) + "f 1//1 -4 -3\nf 2 3 4\n", ".obj");
-  EXPECT_NO_THROW(move(same.path()));
-  EXPECT_EQ(mesh.vertices()[2], 7.0F);
-  const std::string right = file.path() + " has 5 vertices and 2 faces";
-  for (const auto& [content, why] :
-       Refusals{{"f 1 2 3\nf 2 4 3\n", ": face 1 has the vertices 1 3 2, counted from 0; in " +
-                                           file.path() + " they are 1 2 3"},
-                {"f 1 2 3\n", ": has 5 vertices and 1 faces; " + right},
-                {"v 0 0 0\nf 1 2 3\nf 2 3 4\n", ": has 6 vertices and 2 faces; " + right}}) {
-    EXPECT_EQ(refusal_of(kVertices + content, move, ".obj"), why);
-  }
-}
-
-using Order = Motions::Order;
 using Names = std::vector<std::string>;
 
 const std::pair<const char*, QueryMode> kModes[] = {{"static", QueryMode::kStatic},
@@ -51,7 +32,7 @@ TEST(Motions, have_every_mode) {
          is_static ? Names{",,,", ",x,nan,-", ",4,5,6"} : Names{",4,5,6"}) {
       const TemporaryFile file("\xEF\xBB\xBF\r\n" + kHeader + "\r\n 7 , " + name + ",1,2, 3" +
                                cells + ",7,8,9, 1e-3 \r\n\r\n");
-      Motions motions(file.path(), Order::kAsInFile);
+      Motions motions(file.path());
       EXPECT_EQ(motions.count(), 1U);
       const Motion motion = motions.next().value();
       EXPECT_FALSE(motions.next());
@@ -73,7 +54,7 @@ TEST(Motions, have_every_mode) {
 TEST(Motions, may_have_a_trocar_that_moves) {
   const TemporaryFile file("1,swept" + kPoints + ",0.001,1,2,4\n2,static" + kPoints +
                            ",0.001,,,\n3,swept" + kPoints + ",0.001\n");
-  Motions motions(file.path(), Order::kAsInFile);
+  Motions motions(file.path());
   EXPECT_EQ(motions.next()->previous_trocar, Eigen::Vector3d(1, 2, 4));
   EXPECT_EQ(request_of(*motions.next(), {}).path.size(), 1U);
   const ToolPath resting = request_of(*motions.next(), {}).path;
@@ -104,7 +85,7 @@ TEST(Motions, refuse_lines_naming_the_value_and_what_is_legal) {
       {good + "2,static" + kPoints + ",inf\n", ":4: radius is \"inf\"; must be a finite number"},
       {good + "2,swept,1,2,3,4,5,6,7,8,1e7,1\n",
        ":4: tip of waypoint 1 is (7, 8, 1e+07); must be finite and within 1e+06 m"}};
-  const auto read = [](const std::string& file) { Motions(file, Order::kAsInFile); };
+  const auto read = [](const std::string& file) { Motions motions(file); };
   for (const auto& [content, why] : refusals) EXPECT_EQ(refusal_of(content, read), why);
   for (const char* mode : {"paper_static", "paper_swept", "paper_naive"}) {
     const std::string point = good + "2," + mode + ",1,2,3,1,2,3,1,2,3,1\n";
@@ -119,23 +100,31 @@ std::string file_of(const Names& queries) {
   return content;
 }
 
-/// The queries in the order in which they are given.
-Names given(const Names& queries, Order order) {
-  Motions list(TemporaryFile(file_of(queries)).path(), order);
-  EXPECT_EQ(list.count(), queries.size());
-  Names names;
-  while (const std::optional<Motion> motion = list.next()) {
-    names.push_back(motion->query);
-    EXPECT_EQ(queries[motion->line - 1], motion->query);
+TEST(Motions, may_have_long_lines_and_are_counted_with_blank_ones) {
+  std::string content;
+  for (int i = 0; i < 40; ++i) {
+    const std::string name(1 + i * i * 200, static_cast<char>('a' + i % 26));
+    content += "\r\n \t\n" + name + std::to_string(i) + ",swept" + kPoints + ",1\r\n";
   }
-  return names;
+  Motions motions(TemporaryFile(content).path());
+  EXPECT_EQ(motions.count(), 40U);
+  for (int i = 0; i < 40; ++i) EXPECT_EQ(motions.next()->line % 3, 0U);
+  EXPECT_EQ(input_error([] { Motions motions("/"); }), "/: cannot be read: Is a directory");
 }
 
 TEST(Motions, are_sorted_as_integers_or_as_text) {
-  const Names integers{"10", "9", "-3", "0", "100"}, names{"stab", "10", "9", "palpate 2"};
-  EXPECT_EQ(given(integers, Order::kByQuery), (Names{"-3", "0", "9", "10", "100"}));
-  EXPECT_EQ(given(names, Order::kByQuery), (Names{"10", "9", "palpate 2", "stab"}));
-  EXPECT_EQ(given(integers, Order::kAsInFile), integers);
+  for (const auto& [queries, sorted] :
+       {std::pair(Names{"10", "9", "-3", "0", "100"}, Names{"-3", "0", "9", "10", "100"}),
+        std::pair(Names{"stab", "10", "9", "palpate 2"}, Names{"10", "9", "palpate 2", "stab"})}) {
+    Motions motions(TemporaryFile(file_of(queries)).path());
+    EXPECT_EQ(motions.count(), queries.size());
+    Names names;
+    while (const std::optional<Motion> motion = motions.next()) {
+      names.push_back(motion->query);
+      EXPECT_EQ(queries[motion->line - 1], motion->query);
+    }
+    EXPECT_EQ(names, sorted);
+  }
 }
 
 TEST(Motions, are_refused_as_a_whole) {
@@ -145,10 +134,8 @@ TEST(Motions, are_refused_as_a_whole) {
       {file_of({"a", "b", "b"}), ":3: query \"b\" is already on line 2; each motion needs its own"},
       {file_of({"1", "2"}) + "3,swept\n",
        ":3: 2 columns; must be 12, or 15 with the previous trocar"}};
-  for (const Order order : {Order::kByQuery, Order::kAsInFile}) {
-    for (const auto& [content, why] : refusals) {
-      EXPECT_EQ(refusal_of(content, [&](const std::string& file) { Motions(file, order); }), why);
-    }
+  for (const auto& [content, why] : refusals) {
+    EXPECT_EQ(refusal_of(content, [&](const std::string& file) { Motions motions(file); }), why);
   }
 }
 
@@ -156,11 +143,11 @@ std::string csv_of(QueryMode mode, const CollisionResult& result, bool clearance
   Motion motion;
   motion.query = "17";
   motion.mode = mode;
-  Questions questions;
-  questions.clearance = clearance;
-  questions.placement = placement;
+  QueryOptions asked;
+  asked.clearance = clearance;
+  asked.placement = placement;
   std::string csv;
-  append_contacts(motion, result, questions, csv);
+  append_contacts(motion, result, asked, csv);
   return csv;
 }
 

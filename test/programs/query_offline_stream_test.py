@@ -125,6 +125,19 @@ class StreamTest(ProgramCase):
         for jobs in '1', '2', '7':
             self.assertEqual(self.piped(text, '--jobs', jobs), (right, '', 0))
 
+    @unittest.skipIf('ASAN_OPTIONS' in os.environ, 'most of the memory would be the sanitizer\'s')
+    def test_memory_does_not_grow_with_motions(self):
+        peaks = []
+        for count in 2000, 60000:
+            self.write('motions.csv', ''.join(line(query) for query in range(count)))
+            with open(self.folder / 'motions.csv') as motions, open(self.folder / 'answers.csv', 'w') as answers:
+                process = subprocess.Popen([PROGRAM, *FILES, '--jobs', '2'], cwd=self.folder, stdin=motions, stdout=answers,
+                                           stderr=subprocess.DEVNULL)
+                _, process.returncode, usage = os.wait4(process.pid, 0)
+            peaks.append(usage.ru_maxrss / 1024)  # [MiB]
+        self.assertGreater(os.path.getsize(self.folder / 'answers.csv'), 40 << 20)
+        self.assertLess(peaks[1] - peaks[0], 16)
+
     def test_answers_come_in_the_order_of_the_input(self):
         names = ['10', '9', 'stab', '9', '-1']
         output, _, _ = self.piped(''.join(map(line, names)), '--blank-lines')

@@ -1,6 +1,5 @@
 #include "programs/robot_reader/robot_model.hpp"
 
-#include <console_bridge/console.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -13,16 +12,12 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// The answer, as the node reads it.
-RobotReply ask(const std::function<std::string()>& urdf, const std::vector<std::string>& links) {
-  std::string bytes;
-  answer_with_links(urdf, links, [&](const std::string& record) { bytes += record; });
-  return parse_reply(bytes);
+std::vector<RobotLink> links(const std::string& urdf, const std::vector<std::string>& names,
+                             const std::string& folder = {}) {
+  return read_links(urdf, names, folder, [](const std::string&) {});
 }
 
-RobotLink link(const std::string& urdf, const std::string& name) {
-  return ask([&] { return urdf; }, {name}).links.value().front();
-}
+RobotLink link(const std::string& urdf, const std::string& name) { return links(urdf, {name})[0]; }
 
 const std::string& gripper() {
   static const std::string urdf = tool_text("gripper.urdf");
@@ -45,19 +40,9 @@ std::string robot_of(const std::string& shape) {
 }
 
 /// For a robot whose link cannot be read.
-std::string refusal(const std::string& urdf, const std::string& link = "tip") {
-  const RobotReply reply = ask([&] { return urdf; }, {link});
-  EXPECT_FALSE(reply.links);
-  return reply.refusal.value();
+std::string refusal(const std::string& urdf, const std::string& name = "tip") {
+  return tool_error([&] { link(urdf, name); });
 }
-
-class SilentHandler : public console_bridge::OutputHandler {
- public:
-  void log(const std::string& text, console_bridge::LogLevel, const char*, int) override {
-    texts.push_back(text);
-  }
-  std::vector<std::string> texts;
-};
 
 }  // namespace
 
@@ -132,74 +117,32 @@ TEST(RobotModel, FaultsOfOtherLinksDoNotMatter) {
   expect_words(refusal(urdf, "tip_2"), {"'tip_2'", "cone"});
 }
 
-TEST(RobotModel, LogsNothingAndLeavesConsoleBridgeAsItWas) {
-  SilentHandler handler;
-  console_bridge::useOutputHandler(&handler);
-  refusal(robot_of("<cone/>"));
-  EXPECT_EQ(console_bridge::getOutputHandler(), &handler);
-  refusal("");
-  EXPECT_EQ(console_bridge::getOutputHandler(), &handler);
-  EXPECT_TRUE(handler.texts.empty());
-  console_bridge::noOutputHandler();
-}
-
-TEST(RobotAnswer, HasTheLinksInTheOrderOfTheirNames) {
-  const RobotReply reply = ask(gripper, {"shaft", "jaw", "shaft"});
-  EXPECT_FALSE(reply.refusal);
-  EXPECT_EQ(reply.reading, "link 'jaw': mesh '" + tool_file("jaw_binary.stl") + "'");
-  ASSERT_TRUE(reply.links);
-  ASSERT_EQ(reply.links->size(), 3U);
-  EXPECT_EQ((*reply.links)[0].shapes.size(), 2U);
-  EXPECT_EQ((*reply.links)[2].shapes.size(), 2U);
-  ASSERT_EQ((*reply.links)[1].shapes.size(), 1U);
-  const RobotShape& mesh = (*reply.links)[1].shapes[0];
+TEST(RobotModel, LinksInTheOrderOfTheirNamesWithTheirMeshes) {
+  std::vector<std::string> read;
+  const auto found = read_links(gripper(), {"shaft", "jaw", "shaft"}, "",
+                                [&](const std::string& mesh) { read.push_back(mesh); });
+  const std::string file = tool_file("jaw_binary.stl");
+  EXPECT_EQ(read, std::vector<std::string>{"link 'jaw': mesh '" + file + "'"});
+  ASSERT_EQ(found.size(), 3U);
+  EXPECT_EQ(found[0].shapes.size(), 2U);
+  EXPECT_EQ(found[2].shapes.size(), 2U);
+  const RobotShape& mesh = found[1].shapes.at(0);
   EXPECT_EQ(mesh.kind, RobotShape::MESH);
-  EXPECT_EQ(mesh.file, tool_file("jaw_binary.stl"));
+  EXPECT_EQ(mesh.file, file);
   EXPECT_EQ(mesh.triangles.size(), 12U);
   EXPECT_EQ(mesh.vertices.size(), 12U);
 }
 
-TEST(RobotAnswer, ARelativeMeshBeginsAtTheFolderOfTheUrdf) {
-  const std::string urdf = robot_of("<mesh filename='jaw.obj'/>");
-  std::string bytes;
-  answer_with_links([&] { return urdf; }, {"tip"}, [&](const auto& record) { bytes += record; },
-                    tool_file(""));
-  ASSERT_TRUE(parse_reply(bytes).links);
-  expect_words(ask([&] { return urdf; }, {"tip"}).refusal.value_or("accepted"),
-               {"'jaw.obj'", "must be an absolute path, or begin with package://"});
-}
-
-TEST(RobotAnswer, APointerOfGitLfsIsNamed) {
-  const std::string urdf = robot_of("<mesh filename='" + tool_file("lfs_pointer.stl") + "'/>");
-  expect_words(ask([&] { return urdf; }, {"tip"}).refusal.value_or("accepted"),
-               {"lfs_pointer.stl", "only a pointer of Git LFS", "git lfs pull"});
-}
-
-TEST(RobotAnswer, NamesAMeshBeforeItIsRead) {
-  std::vector<std::string> records;
-  answer_with_links([] { return robot_of("<mesh filename='" + tool_file("jaw.obj") + "'/>"); },
-                    {"tip"}, [&](const std::string& record) { records.push_back(record); });
-  ASSERT_EQ(records.size(), 2U);
-  const RobotReply cut_off = parse_reply(records[0]);
-  expect_words(cut_off.reading, {"tip", "jaw.obj"});
-  EXPECT_FALSE(cut_off.refusal || cut_off.links);
-}
-
-TEST(RobotAnswer, IsARefusalIfSomethingCannotBeRead) {
-  const std::string no_file = robot_of("<mesh filename='package://organ_collision/no.stl'/>");
-  const std::string flat =
-      robot_of("<mesh filename='" + tool_file("jaw.obj") + "' scale='1 0 1'/>");
-  const std::vector<std::pair<std::string, std::vector<std::string>>> rows = {
-      {robot_of("<sphere radius='1'/>"), {"nobody"}},
-      {no_file, {"'tip'", "no.stl"}},
-      {flat, {"'tip'", "jaw.obj", "1 0 1"}},
-      {robot_of("<mesh filename=''/>"), {"'tip'", "''"}}};
-  for (const auto& [urdf, words] : rows) {
-    const RobotReply reply = ask([&urdf = urdf] { return urdf; }, {"tip", "nobody"});
-    ASSERT_TRUE(reply.refusal);
-    expect_words(*reply.refusal, words);
-    EXPECT_FALSE(reply.links);
-  }
-  const auto missing = []() -> std::string { throw ToolError("cannot read 'x.urdf'"); };
-  EXPECT_EQ(ask(missing, {"tip"}).refusal, "cannot read 'x.urdf'");
+TEST(RobotModel, MeshesThatCannotBeRead) {
+  const auto of_mesh = [](const std::string& file, const std::string& scale = "1 1 1") {
+    return robot_of("<mesh filename='" + file + "' scale='" + scale + "'/>");
+  };
+  EXPECT_EQ(links(of_mesh("jaw.obj"), {"tip"}, tool_file("")).size(), 1U);
+  const std::pair<std::string, std::vector<std::string>> rows[] = {
+      {of_mesh("jaw.obj"), {"'jaw.obj'", "must be an absolute path, or begin with package://"}},
+      {of_mesh(tool_file("lfs_pointer.stl")), {"only a pointer of Git LFS", "git lfs pull"}},
+      {of_mesh("package://organ_collision/no.stl"), {"'tip'", "no.stl"}},
+      {of_mesh(tool_file("jaw.obj"), "1 0 1"), {"'tip'", "jaw.obj", "1 0 1"}},
+      {of_mesh(""), {"'tip'", "''"}}};
+  for (const auto& [urdf, words] : rows) expect_words(refusal(urdf), words);
 }

@@ -1,4 +1,4 @@
-// The texts that query_offline reads, and how programs tell their progress. command_lines_test.py
+// The texts that programs read, and how programs tell their progress. command_lines_test.py
 // tests the command lines of all programs.
 #include "common/program/user_input.hpp"
 
@@ -6,16 +6,15 @@
 
 #include <chrono>
 #include <cmath>
+#include <string>
 #include <thread>
-
-#include "programs/query_offline/motions.hpp"
-#include "temporary_files.hpp"
+#include <utility>
+#include <vector>
 
 namespace organ_collision {
 namespace {
 
 using Texts = std::vector<std::string_view>;
-using Words = std::vector<std::string>;
 
 TEST(UserInput, is_named_in_refusals_of_one_line) {
   EXPECT_STREQ(InputError("liver.obj", 12, "x is abc").what(), "liver.obj:12: x is abc");
@@ -59,53 +58,6 @@ TEST(UserInput, is_a_number_only_from_end_to_end) {
   for (const char* text : {"", "x", "1.0", "1e3", "99999999999999999999", "+1"}) {
     EXPECT_FALSE(parse_integer(text)) << text;
   }
-}
-
-Words lines_of(const std::string& content) {
-  const TemporaryFile file(content);
-  TextReader text(file.path());
-  Words lines;
-  while (text.is_ready() && text.next()) lines.emplace_back(text.line());
-  return lines;
-}
-
-TEST(TextReader, takes_unix_and_windows_lines_without_blank_ones) {
-  for (const char* content :
-       {"a b\nc\n", "a b\n\nc", "a b\r\n\r\nc\r\n", "\n  a b \t\n   \n\tc  \r\n\n",
-        "\xEF\xBB\xBF"
-        "a b\nc\n",
-        "\xEF\xBB\xBF\r\na b\nc\n"}) {
-    EXPECT_EQ(lines_of(content), (Words{"a b", "c"})) << content;
-  }
-  for (const char* content : {"", "\n", " \t\r\n\n "}) EXPECT_TRUE(lines_of(content).empty());
-}
-
-TEST(TextReader, takes_lines_that_are_longer_than_what_it_reads_at_once) {
-  Words lines;
-  std::string content;
-  for (std::size_t i = 0; i < 40; ++i) {
-    lines.emplace_back(1 + i * i * 200, static_cast<char>('a' + i % 26));
-    content += lines.back() + '\n';
-  }
-  EXPECT_EQ(lines_of(content), lines);
-}
-
-TEST(TextReader, counts_all_lines_for_errors) {
-  const TemporaryFile file("\na\n\n\nb\n\n");
-  TextReader text(file.path());
-  ASSERT_TRUE(text.next());
-  EXPECT_EQ(text.number(), 2U);
-  ASSERT_TRUE(text.next());
-  EXPECT_STREQ(text.error("no").what(), (file.path() + ":5: no").c_str());
-  EXPECT_FALSE(text.next());
-  EXPECT_EQ(text.number(), 6U);
-  EXPECT_EQ(TextReader("/dev/null").number(), 1U);
-}
-
-TEST(TextReader, refuses_what_it_cannot_read) {
-  EXPECT_EQ(input_error([] { TextReader("/nowhere/a.csv"); }),
-            "/nowhere/a.csv: cannot be opened: No such file or directory");
-  EXPECT_EQ(input_error([] { TextReader("/").next(); }), "/: cannot be read: Is a directory");
 }
 
 TEST(Progress, is_told_with_the_total_if_that_is_known) {

@@ -4,77 +4,53 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <utility>
-
-#include "common/messages/checked_messages.hpp"
+#include <cstring>
 
 namespace organ_collision {
 namespace {
+
+namespace ser = ros::serialization;
+
+using Size = std::uint32_t;
 
 bool is_legal(const RobotShape& shape) {
   return shape.kind <= RobotShape::MESH && shape.vertices.size() % 3 == 0 &&
          shape.triangles.size() % 3 == 0;
 }
 
-bool is_legal(const RobotRecord& record) {
-  return record.kind <= RobotRecord::LINKS &&
-         std::all_of(record.links.begin(), record.links.end(), [](const RobotLink& link) {
-           return std::all_of(link.shapes.begin(), link.shapes.end(),
-                              [](const RobotShape& shape) { return is_legal(shape); });
-         });
-}
-
-std::string bytes_of(const RobotRecord& record) {
-  std::string bytes(ros::serialization::serializationLength(record), '\0');
-  ros::serialization::OStream stream(reinterpret_cast<std::uint8_t*>(bytes.data()),
-                                     static_cast<std::uint32_t>(bytes.size()));
-  ros::serialization::serialize(stream, record);
-  return bytes;
-}
-
-std::string text_record(std::uint8_t kind, const std::string& text) {
-  RobotRecord record;
-  record.kind = kind;
-  record.text = text;
-  return bytes_of(record);
+bool is_legal(const RobotLink& link) {
+  return std::all_of(link.shapes.begin(), link.shapes.end(),
+                     [](const RobotShape& shape) { return is_legal(shape); });
 }
 
 }  // namespace
 
-std::string reading_record(const std::string& what) {
-  return text_record(RobotRecord::READING, what);
-}
-
-std::string refusal_record(const std::string& why) {
-  return text_record(RobotRecord::REFUSAL, why);
-}
-
-std::string links_record(std::vector<RobotLink> links) {
+std::string reply_of(const std::vector<RobotLink>& links) {
   RobotRecord record;
-  record.kind = RobotRecord::LINKS;
-  record.links = std::move(links);
-  return bytes_of(record);
+  record.links = links;
+  const ros::SerializedMessage message = ser::serializeMessage(record);
+  return {message.buf.get(), message.buf.get() + message.num_bytes};
 }
 
-RobotReply parse_reply(const std::string& bytes) {
-  RobotReply reply;
+std::optional<std::vector<RobotLink>> parse_reply(const std::string& bytes) {
+  Size size = 0;
+  if (bytes.size() < sizeof size) return std::nullopt;
+  std::memcpy(&size, bytes.data(), sizeof size);
+  // roscpp makes room for lists before it looks whether their bytes are there.
+  if (size != bytes.size() - sizeof size) return std::nullopt;
+  std::string content = bytes.substr(sizeof size);
+  ser::IStream stream(reinterpret_cast<std::uint8_t*>(content.data()), size);
   RobotRecord record;
-  CheckedStream stream(reinterpret_cast<const std::uint8_t*>(bytes.data()),
-                       static_cast<std::uint32_t>(bytes.size()));
   try {
-    for (stream.next(record); record.kind == RobotRecord::READING; stream.next(record)) {
-      reply.reading = record.text;
-    }
-  } catch (const ros::serialization::StreamOverrunException&) {
-    return reply;
+    ser::deserialize(stream, record);
+  } catch (const ser::StreamOverrunException&) {
+    return std::nullopt;
   }
-  if (stream.getLength() != 0 || !is_legal(record)) return reply;
-  if (record.kind == RobotRecord::REFUSAL) {
-    reply.refusal = std::move(record.text);
-  } else {
-    reply.links = std::move(record.links);
-  }
-  return reply;
+  const bool is_whole =
+      stream.getLength() == 0 && std::all_of(record.links.begin(), record.links.end(),
+                                             [](const RobotLink& link) { return is_legal(link); });
+  if (!is_whole) return std::nullopt;
+  return std::move(record.links);
 }
 
 }  // namespace organ_collision

@@ -15,24 +15,10 @@ class ToolError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// These functions make what the program robot_reader writes to the node: messages of the type
-// RobotRecord, one after the other. Before the program reads a file, it writes the file's name, so
-// that the node can say which file made it crash. At the end it writes the links, or why it has
-// none.
+/// What the program robot_reader writes to the node: a RobotRecord, after its number of bytes.
+std::string reply_of(const std::vector<RobotLink>& links);
 
-std::string reading_record(const std::string& what);
-std::string refusal_record(const std::string& why);
-std::string links_record(std::vector<RobotLink> links);
-
-/// The parsed reply of robot_reader. Either `refusal` or `links` is set. If the reply is cut off or
-/// malformed, both are empty.
-struct RobotReply {
-  std::string reading;  ///< the file that was read last; empty: the URDF itself
-  std::optional<std::string> refusal;
-  std::optional<std::vector<RobotLink>> links;  ///< not checked yet
-};
-
-/// Parses a reply. Any bytes may be given: all that is not one complete reply is malformed.
-RobotReply parse_reply(const std::string& bytes);
+/// The links of a reply, which are not checked yet. None if it is cut off or malformed.
+std::optional<std::vector<RobotLink>> parse_reply(const std::string& bytes);
 
 }  // namespace organ_collision

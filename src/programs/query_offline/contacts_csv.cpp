@@ -7,6 +7,8 @@
 namespace organ_collision {
 namespace {
 
+bool has_clearance(const QueryOptions& asked) { return asked.margin > 0.0 || asked.clearance; }
+
 constexpr std::size_t kCellsBehindFace = 8, kCellsOfClearance = 15, kCellsOfPlacement = 7;
 
 /// Appends a number as printf does with "%.17g". std::to_chars writes the same characters in a
@@ -82,16 +84,16 @@ void append_placement(const AxisPlacement& placement, std::string& csv) {
 
 }  // namespace
 
-std::string contacts_header(const Questions& questions) {
+std::string contacts_header(const QueryOptions& asked) {
   std::string header =
       "query,face,fraction,depth,point_x,point_y,point_z,normal_x,normal_y,normal_z";
-  if (questions.has_clearance()) {
+  if (has_clearance(asked)) {
     header +=
         ",clearance,distance,least,least_fraction,nearest_face"
         ",on_organ_x,on_organ_y,on_organ_z,on_tool_x,on_tool_y,on_tool_z"
         ",clearance_normal_x,clearance_normal_y,clearance_normal_z,normal_defined";
   }
-  if (questions.placement) {
+  if (asked.placement) {
     header +=
         ",tip_side,trocar_side,crossings,crossed_faces,crossing_directions,crossing_places"
         ",length_inside";
@@ -99,13 +101,13 @@ std::string contacts_header(const Questions& questions) {
   return header + '\n';
 }
 
-void append_contacts(const Motion& motion, const CollisionResult& result,
-                     const Questions& questions, std::string& csv) {
+void append_contacts(const Motion& motion, const CollisionResult& result, const QueryOptions& asked,
+                     std::string& csv) {
   const bool of_paper_mode = is_paper_mode(motion.mode);
   std::string added;
-  if (questions.has_clearance()) append_clearance(result.clearance, added);
-  if (questions.placement && of_paper_mode) append_empty_cells(kCellsOfPlacement, added);
-  if (questions.placement && !of_paper_mode) append_placement(result.placement, added);
+  if (has_clearance(asked)) append_clearance(result.clearance, added);
+  if (asked.placement && of_paper_mode) append_empty_cells(kCellsOfPlacement, added);
+  if (asked.placement && !of_paper_mode) append_placement(result.placement, added);
   for (const FaceContact& contact : result.contacts) {
     csv += motion.query;
     append_contact(contact, of_paper_mode, csv);

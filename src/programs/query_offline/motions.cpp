@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <numeric>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -73,28 +73,54 @@ void check_motion(const Motion& motion) {
 
 }  // namespace
 
-TextReader::TextReader(const std::string& file)
+Motions::Motions(const std::string& file)
     : file_(file == "-" ? "standard input" : file),
       descriptor_(file == "-" ? STDIN_FILENO : open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
   if (descriptor_ < 0) fail("cannot be opened");
+  if (file == "-") return;
+  while (std::optional<Motion> motion = read()) motions_.push_back(std::move(*motion));
+  sort();
+  count_ = motions_.size();
 }
 
-TextReader::~TextReader() {
+Motions::~Motions() {
   if (descriptor_ != STDIN_FILENO) close(descriptor_);
 }
 
-bool TextReader::next() {
-  constexpr int kForEver = -1;
-  find_line(kForEver);
-  if (line_.empty()) return false;
-  ends_within_line_ = end_ == buffer_.size();
-  go_behind_line();
-  return true;
+void Motions::sort() {
+  const bool all_integers =
+      std::all_of(motions_.begin(), motions_.end(), [](const Motion& m) { return m.number; });
+  const auto is_before = [&](const Motion& a, const Motion& b) {
+    return all_integers ? a.number < b.number : a.query < b.query;
+  };
+  std::sort(motions_.begin(), motions_.end(), [&](const Motion& a, const Motion& b) {
+    return is_before(a, b) || (!is_before(b, a) && a.line < b.line);
+  });
+  const auto first =
+      std::adjacent_find(motions_.begin(), motions_.end(),
+                         [&](const Motion& a, const Motion& b) { return !is_before(a, b); });
+  if (first == motions_.end()) return;
+  const Motion& second = *std::next(first);
+  throw InputError(file_, second.line,
+                   concatenate("query ", in_quotes(second.query), " is already on line ",
+                               first->line, "; each motion needs its own"));
+}
+
+std::optional<Motion> Motions::next() {
+  if (!count_) return read();
+  if (motions_.empty()) return std::nullopt;
+  Motion motion = std::move(motions_.front());
+  motions_.pop_front();
+  return motion;
+}
+
+InputError Motions::error(const std::string& message) const {
+  return {file_, std::max<std::size_t>(number_, 1), message};
 }
 
 /// Makes the next line that is not blank the current one. At the end of the file, it is empty.
 /// Returns false if the line has not arrived after `wait` [ms].
-bool TextReader::find_line(int wait) {
+bool Motions::find_line(int wait) {
   while (true) {
     end_ = std::min(buffer_.find('\n', begin_), buffer_.size());
     if (end_ == buffer_.size() && !at_end_) {
@@ -109,14 +135,14 @@ bool TextReader::find_line(int wait) {
   }
 }
 
-void TextReader::go_behind_line() {
+void Motions::go_behind_line() {
   ++number_;
   begin_ = std::min(end_ + 1, buffer_.size());
 }
 
 /// Reads what has arrived. Waits for it, because read() fails if the pipe does not block, but at
 /// most for `wait` [ms]. Returns false if nothing has arrived.
-bool TextReader::read_piece(int wait) {
+bool Motions::read_piece(int wait) {
   pollfd wanted{descriptor_, POLLIN, 0};
   const int ready = TEMP_FAILURE_RETRY(poll(&wanted, 1, wait));
   if (ready == 0) return false;
@@ -124,46 +150,50 @@ bool TextReader::read_piece(int wait) {
   begin_ = 0;
   const std::size_t size = buffer_.size();
   buffer_.resize(size + kPiece);
-  const ssize_t count = TEMP_FAILURE_RETRY(read(descriptor_, &buffer_[size], kPiece));
+  const ssize_t count = TEMP_FAILURE_RETRY(::read(descriptor_, &buffer_[size], kPiece));
   if (ready < 0 || count < 0) fail("cannot be read");
   buffer_.resize(size + static_cast<std::size_t>(count));
   at_end_ = count == 0;
   return true;
 }
 
-void TextReader::fail(const std::string& what) const {
+void Motions::fail(const std::string& what) const {
   throw InputError(file_ + ": " + what + ": " + std::strerror(errno));
 }
 
 /// The motion in the next line that has one.
 std::optional<Motion> Motions::read() {
-  while (text_.next()) {
-    split_cells(text_.line(), cells_);
+  constexpr int kForEver = -1;
+  while (find_line(kForEver), !line_.empty()) {
+    ends_within_line_ = end_ == buffer_.size();
+    go_behind_line();
+    split_cells(line_, cells_);
     if (std::exchange(at_first_, false) && is_header()) continue;
     has_motion_ = true;
     return motion();
   }
   if (has_motion_) return std::nullopt;
-  throw text_.error("the file ends without a motion; must have at least one");
+  throw error("the file ends without a motion; must have at least one");
 }
 
 /// The motion in the current line.
 Motion Motions::motion() const {
   if (!is_legal_count(cells_.size())) {
-    throw text_.error(concatenate(cells_.size(), " columns; must be ", int{kPreviousTrocar},
-                                  ", or ", int{kColumns}, " with the previous trocar"));
+    throw error(concatenate(cells_.size(), " columns; must be ", int{kPreviousTrocar}, ", or ",
+                            int{kColumns}, " with the previous trocar"));
   }
-  if (cells_[kQuery].empty()) throw text_.error("query is empty; must be a number or a name");
+  if (cells_[kQuery].empty()) throw error("query is empty; must be a number or a name");
 
   Motion motion;
   motion.query = cells_[kQuery];
-  motion.line = text_.number();
+  motion.number = parse_integer(motion.query);
+  motion.line = number_;
   const auto* const mode =
       std::find_if(std::begin(kModes), std::end(kModes),
                    [&](const auto& known) { return known.first == cells_[kMode]; });
   if (mode == std::end(kModes)) {
-    throw text_.error("mode is " + in_quotes(cells_[kMode]) +
-                      "; legal are static, swept, paper_static, paper_swept and paper_naive");
+    throw error("mode is " + in_quotes(cells_[kMode]) +
+                "; legal are static, swept, paper_static, paper_swept and paper_naive");
   }
   motion.mode = mode->second;
   motion.trocar = point(kTrocar);
@@ -174,12 +204,12 @@ Motion Motions::motion() const {
   motion.previous_trocar = rests ? motion.trocar : point(kPreviousTrocar);
   motion.radius = number(kRadius);
   if (!(motion.radius > 0.0)) {
-    throw text_.error("radius is " + in_quotes(cells_[kRadius]) + "; must be above 0");
+    throw error("radius is " + in_quotes(cells_[kRadius]) + "; must be above 0");
   }
   try {
     check_motion(motion);
-  } catch (const std::invalid_argument& error) {
-    throw text_.error(error.what());
+  } catch (const std::invalid_argument& refusal) {
+    throw error(refusal.what());
   }
   return motion;
 }
@@ -187,8 +217,8 @@ Motion Motions::motion() const {
 double Motions::number(std::size_t column) const {
   const std::optional<double> value = parse_number(cells_[column]);
   if (value && std::isfinite(*value)) return *value;
-  throw text_.error(std::string(column_names()[column]) + " is " + in_quotes(cells_[column]) +
-                    "; must be a " + (value ? "finite number" : "number"));
+  throw error(std::string(column_names()[column]) + " is " + in_quotes(cells_[column]) +
+              "; must be a " + (value ? "finite number" : "number"));
 }
 
 Eigen::Vector3d Motions::point(std::size_t column) const {
@@ -203,48 +233,8 @@ bool Motions::is_header() const {
     return true;
   }
   const std::size_t required = kNames.find(",previous_trocar");
-  throw text_.error(concatenate("header is ", in_quotes(text_.line()), "; must be ",
-                                kNames.substr(0, required), ", and perhaps ",
-                                kNames.substr(required + 1)));
-}
-
-Motions::Motions(const std::string& file, Order order) : text_(file) {
-  if (file != "-") read_all(order);
-}
-
-void Motions::read_all(Order order) {
-  std::vector<long long> values;  // the values of those queries that are integers
-  while (std::optional<Motion> motion = read()) {
-    if (const auto value = parse_integer(motion->query)) values.push_back(*value);
-    motions_.push_back(std::move(*motion));
-  }
-  order_.emplace(motions_.size());
-  std::iota(order_->begin(), order_->end(), std::size_t{0});
-  const bool all_integers = values.size() == motions_.size();
-  const auto is_before = [&](std::size_t a, std::size_t b) {
-    return all_integers ? values[a] < values[b] : motions_[a].query < motions_[b].query;
-  };
-  std::vector<std::size_t> sorted = *order_;
-  std::stable_sort(sorted.begin(), sorted.end(), is_before);
-  const auto same = std::adjacent_find(
-      sorted.begin(), sorted.end(), [&](std::size_t a, std::size_t b) { return !is_before(a, b); });
-  if (same != sorted.end()) {
-    const Motion &first = motions_[*same], &second = motions_[*std::next(same)];
-    throw InputError(text_.name(), second.line,
-                     concatenate("query ", in_quotes(second.query), " is already on line ",
-                                 first.line, "; each motion needs its own"));
-  }
-  if (order == Order::kByQuery) order_ = std::move(sorted);
-}
-
-std::optional<Motion> Motions::next() {
-  if (!order_) return read();
-  if (next_ == order_->size()) return std::nullopt;
-  return motions_[(*order_)[next_++]];
-}
-
-std::optional<std::size_t> Motions::count() const {
-  return order_ ? std::optional(order_->size()) : std::nullopt;
+  throw error(concatenate("header is ", in_quotes(line_), "; must be ", kNames.substr(0, required),
+                          ", and perhaps ", kNames.substr(required + 1)));
 }
 
 }  // namespace organ_collision

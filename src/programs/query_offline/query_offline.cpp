@@ -14,16 +14,18 @@
 #include "contacts_csv.hpp"
 #include "geometry/concatenate.hpp"
 #include "geometry/plausible_size.hpp"
-#include "shapes.hpp"
+#include "motions.hpp"
+#include "organ_collision/geometry/organ/triangle_mesh.hpp"
+#include "programs/mesh_reader/mesh_reader.hpp"
+#include "query/worker_threads.hpp"
 
 namespace organ_collision {
 namespace {
 
 constexpr char kUsage[] =
     R"(Usage: query_offline --mesh FILE [--mesh-before FILE] --motions FILE [OPTIONS]
-       query_offline --shapes FOLDER --motions FILE [OPTIONS]
-Options: [--jobs NUMBER] [--picker NAME] [--gl NAME] [--margin METRES] [--clearance]
-         [--placement] [--blank-lines]
+Options: [--margin METRES] [--clearance] [--placement] [--blank-lines] [--picker NAME]
+         [--jobs NUMBER]
 
 Prints the faces that a tool touches, or touched while it moved, as CSV. Needs no ROS master.
 
@@ -40,16 +42,9 @@ Prints the faces that a tool touches, or touched while it moved, as CSV. Needs n
                       previous_trocar_x,previous_trocar_y,previous_trocar_z
   --mesh-before FILE  the same faces at the start of the step: swept motions then meet the organ
                       moving linearly from there to --mesh; without it the organ rests
-  --shapes FOLDER     a recorded simulation: an OBJ file with the same faces for each motion, in the
-                      order of the files' names (step_2.obj before step_10.obj). During a swept
-                      motion, the organ moves linearly from the shape before to that of the motion;
-                      in the first motion it rests
-  --jobs NUMBER       threads, 1 to 1024; by default one for each core. The output does not depend on
-                      it
+  --jobs NUMBER       threads, 1 to 1024, by default one for each core; the output is the same
   --picker NAME       feedback (default), select or cpu: the same contacts. In the paper's modes,
                       select draws all faces, which is much slower. cpu needs no OpenGL
-  --gl NAME           where the OpenGL for picking comes from: osmesa, egl, or auto (default): OSMesa
-                      where there is one, else EGL
   --margin METRES     adds the distance between tool and organ, if it is at most this; above 0
   --clearance         adds the distance without a limit; a margin then changes nothing
   --placement         adds on which side of the organ the tool is, and where its axis crosses it
@@ -58,16 +53,13 @@ Prints the faces that a tool touches, or touched while it moved, as CSV. Needs n
   --help              this text
 
 Output: query,face,fraction,depth,point_x,point_y,point_z,normal_x,normal_y,normal_z
-sorted by query (integers by value, names as text), then face; with --motions - and with --shapes, in
-the order of the motions, then face. A face's number is its place among
-the faces of the mesh file, from 0; a polygon of k corners counts as k - 2 faces: a convex one as the fan
-around its first corner, a concave one without faces in the void. Without the options below, a motion
-without contact has no line. In the paper's modes the columns after face
-are empty.
-
-With --margin, --clearance or --placement each motion has at least one line. Further columns follow,
-which are the same in all lines of a motion. A motion without contact has one line, in which the
-columns from face to normal_z are empty. In the paper's modes the further columns are empty.
+sorted by query (integers by value, names as text), then face; with --motions - in the order of the
+motions, each as soon as its line has arrived, and a query may come twice. A face's number is its
+place among the faces of the mesh file, from 0; a polygon of k corners counts as k - 2 faces: a convex
+one as the fan around its first corner, a concave one without faces in the void. In the paper's modes
+the columns after face are empty. A motion without contact has no line; with --margin, --clearance or
+--placement it has one, in which the columns from face to normal_z are empty. Their columns follow,
+the same in all lines of a motion, and empty in the paper's modes.
 
 With --margin or --clearance:
   clearance           known; beyond_margin: no face was found within the margin at the end of the
@@ -94,73 +86,109 @@ With --placement, at the end of the step:
   crossing_places     their places on the axis, from 0 at the trocar to 1 at the tip
   length_inside       length of the axis within the organ; empty if a side is unknown
 
-With --motions - a motion is answered as soon as its line has arrived. A query may then come twice.
-
 Exit status: 0 done; 2 bad input, with one line on stderr and nothing on stdout; 1 other failures.
-With --motions - and with --shapes, the motions before a bad line, or before a bad shape, are answered
-first.
+With --motions - the motions before a bad line are answered first.
 )";
 
 constexpr int kMostJobs = 1024;
+/// The most motions of a round for each thread, which bounds the memory.
+constexpr std::size_t kMostForEachThread = 512;
 
 struct Options {
-  std::string mesh;         ///< a mesh file; empty: the folder `shapes` is used
-  std::string mesh_before;  ///< a mesh file; empty: the organ rests
-  std::string shapes;       ///< a folder with an OBJ file for each motion; empty: `mesh` is used
-  std::string motions;      ///< a CSV file, or "-": standard input
-  Questions questions;
+  std::string mesh, mesh_before, motions;  ///< files
+  QueryOptions asked;                      ///< about each motion, whose mode does not count
+  bool blank_lines = false;                ///< whether a blank line follows each answer
+  PickerSettings picker;
+  std::size_t jobs = thread_count(0);
 };
 
 /// Returns none if --help is asked for.
 std::optional<Options> parse_options(const std::vector<std::string>& arguments) {
   Options options;
-  Questions& questions = options.questions;
-  questions.jobs = thread_count(0);
   const auto jobs = [&](int count) {
     if (count < 1 || count > kMostJobs) {
       throw std::invalid_argument(
           concatenate("--jobs is ", count, "; must be from 1 to ", kMostJobs));
     }
-    questions.jobs = static_cast<std::size_t>(count);
+    options.jobs = static_cast<std::size_t>(count);
   };
   const auto margin = [&](double metres) {
     if (!std::isfinite(metres) || !(metres > 0.0)) {
       throw std::invalid_argument(
           concatenate("--margin is ", metres, "; must be a finite number above 0, in metres"));
     }
-    questions.margin = metres;
+    options.asked.margin = metres;
   };
-  const auto picker = [&](const std::string& name) { questions.picker.kind = picker_kind(name); };
-  const auto gl = [&](const std::string& name) { questions.picker.gl = gl_platform(name); };
+  const auto picker = [&](const std::string& name) { options.picker.kind = picker_kind(name); };
+  const auto gone = [](const char* why) {
+    return [why](const std::string&) { throw std::invalid_argument(why); };
+  };
   namespace po = boost::program_options;
   po::options_description legal;
   auto add = legal.add_options();
-  add("mesh", po::value(&options.mesh));
+  add("mesh", po::value(&options.mesh)->required());
   add("mesh-before", po::value(&options.mesh_before));
-  add("shapes", po::value(&options.shapes));
   add("motions", po::value(&options.motions)->required());
   add("jobs", po::value<int>()->notifier(jobs));
   add("picker", po::value<std::string>()->notifier(picker));
-  add("gl", po::value<std::string>()->notifier(gl));
   add("margin", po::value<double>()->notifier(margin));
-  add("clearance", po::bool_switch(&questions.clearance));
-  add("placement", po::bool_switch(&questions.placement));
-  add("blank-lines", po::bool_switch(&questions.blank_lines));
+  add("clearance", po::bool_switch(&options.asked.clearance));
+  add("placement", po::bool_switch(&options.asked.placement));
+  add("blank-lines", po::bool_switch(&options.blank_lines));
+  add("shapes", po::value<std::string>()->notifier(
+                    gone("--shapes is gone; give each step its --mesh and --mesh-before")));
+  add("gl", po::value<std::string>()->notifier(
+                gone("--gl is gone; OSMesa is used where there is one, otherwise EGL")));
   if (!read_command_line("query_offline", kUsage, arguments, legal)) return std::nullopt;
-
-  const bool has_mesh = !(options.mesh + options.mesh_before).empty();
-  if (options.mesh.empty() == options.shapes.empty() || (has_mesh && !options.shapes.empty())) {
-    throw InputError(
-        "query_offline: give either --mesh, and perhaps --mesh-before, or --shapes, which has all "
-        "shapes (--help explains)");
-  }
   return options;
 }
 
-/// How many motions a thread answers before it takes the next ones. Small blocks keep all threads
-/// busy until the end of a round. Each block costs a few microseconds.
-std::size_t block_size(std::size_t motions, std::size_t threads) {
-  return std::clamp<std::size_t>(motions / (4 * threads), 1, 8);
+/// The vertices [m], rounded to 32-bit floats.
+std::vector<float> vertices_of(const MeshFile& mesh) {
+  return {mesh.vertices.begin(), mesh.vertices.end()};
+}
+
+/// Throws InputError if the file is not legal, or the mesh too large.
+TriangleMesh mesh_of(const std::string& file) {
+  try {
+    const MeshFile mesh = read_mesh(file);
+    return {vertices_of(mesh), mesh.triangles};
+  } catch (const MeshError& error) {
+    throw InputError(file + ": " + error.what());
+  }
+}
+
+/// Another shape of `mesh`, which was read from `mesh_file`. Throws InputError, naming the first
+/// difference, if the other file does not have the same faces and the same number of vertices.
+TriangleMesh shape_of(const std::string& file, TriangleMesh mesh, const std::string& mesh_file) {
+  const auto counts = [](std::size_t vertices, std::size_t faces) {
+    return concatenate(vertices, " vertices and ", faces, " faces");
+  };
+  const MeshFile shape = read_mesh(file);
+  const std::string found = counts(shape.vertices.size() / 3, shape.triangles.size() / 3);
+  const std::string right = counts(mesh.vertex_count(), mesh.face_count());
+  if (found != right) {
+    throw InputError(concatenate(file, ": has ", found, "; ", mesh_file, " has ", right));
+  }
+  const auto text = [](const FaceIndices& face) {
+    return concatenate(face[0], ' ', face[1], ' ', face[2]);
+  };
+  for (std::size_t face = 0; face < mesh.face_count(); ++face) {
+    const std::uint32_t* const corners = &shape.triangles[3 * face];
+    const FaceIndices indices{corners[0], corners[1], corners[2]};
+    if (indices == mesh.faces()[face]) continue;
+    throw InputError(concatenate(file, ": face ", face, " has the vertices ", text(indices),
+                                 ", counted from 0; in ", mesh_file, " they are ",
+                                 text(mesh.faces()[face])));
+  }
+  mesh.move_vertices(vertices_of(shape));
+  return mesh;
+}
+
+/// Returns whether there is a doubt.
+bool warn(const std::string& doubt) {
+  if (!doubt.empty()) std::cerr << "query_offline: warning: " << doubt << std::endl;
+  return !doubt.empty();
 }
 
 /// Answers all motions in rounds. A round has the motions that are there without waiting, up to a
@@ -168,74 +196,55 @@ std::size_t block_size(std::size_t motions, std::size_t threads) {
 /// the motions, while later motions of the round are still being answered.
 class Evaluation {
  public:
-  Evaluation(const Questions& questions, Motions& motions, ShapeSource& shapes)
-      : questions_(questions),
-        source_(motions),
-        shapes_(shapes),
-        threads_(questions.jobs, questions.picker),
-        progress_("query_offline", "motions", motions.count()) {
-    const TriangleMesh& organ = shapes_.first();
-    if (questions.placement) topology_.emplace(organ.faces(), organ.vertices());
-  }
+  /// Throws GlError if OpenGL picking does not work.
+  Evaluation(const Options& options, Motions& motions, const AskedOrgan& organ)
+      : options_(options),
+        motions_(motions),
+        organ_(organ),
+        threads_(options.jobs, options.picker),
+        progress_("query_offline", "motions", motions.count()) {}
 
-  /// Prints the header line first. If a motion or its shape is not legal, throws InputError after
-  /// the answers to the motions before it are printed. Throws GlError if OpenGL picking does not
-  /// work.
+  /// Prints the header line first. If a motion is not legal, throws InputError after the answers to
+  /// the motions before it are printed.
   void run() {
-    print(contacts_header(questions_));
+    print(contacts_header(options_.asked));
     while (next_round()) answer_round();
     if (error_) std::rethrow_exception(error_);
-    if (shapes_.remaining() == 0) return;
-    throw InputError(source_.text().name() + ": the motions end; shapes without a motion: " +
-                     std::to_string(shapes_.remaining()) + "; each shape needs one");
   }
 
  private:
-  /// Gets the motions of the next round, and their shapes. Waits for the first motion only. Returns
-  /// false if there are no further motions with a shape.
+  /// Gets the motions of the next round. Waits for the first motion only. Returns false if there is
+  /// none.
   bool next_round() {
-    motions_.clear();
+    round_.clear();
     if (error_) return false;
-    const std::size_t most = threads_.count() * shapes_.most_for_each_thread();
     try {
-      while (motions_.size() < most && (motions_.empty() || source_.is_ready())) {
-        std::optional<Motion> motion = source_.next();
+      while (round_.size() < kMostForEachThread * threads_.count() &&
+             (round_.empty() || motions_.is_ready())) {
+        std::optional<Motion> motion = motions_.next();
         if (!motion) break;
-        warn_of(*motion);
-        motions_.push_back(std::move(*motion));
+        const std::string shaft = concatenate(motions_.name(), ":", motion->line, ": the shaft");
+        if (!has_warned_) has_warned_ = warn(doubt_about_radius(shaft, motion->radius));
+        round_.push_back(std::move(*motion));
       }
     } catch (const InputError&) {
       error_ = std::current_exception();
     }
-    try {
-      shapes_.get(motions_.size(), threads_);
-      if (shapes_.count() < motions_.size()) {
-        throw InputError(source_.text().name(), motions_[shapes_.count()].line,
-                         "there is no shape for this motion; must have as many shapes");
-      }
-    } catch (const InputError&) {
-      error_ = std::current_exception();
-    }
-    motions_.resize(shapes_.count());
-    return !motions_.empty();
+    return !round_.empty();
   }
 
-  /// Warns once, of the first shaft of implausible radius.
-  void warn_of(const Motion& motion) {
-    if (has_warned_) return;
-    const std::string doubt = doubt_about_radius(
-        concatenate(source_.text().name(), ":", motion.line, ": the shaft"), motion.radius);
-    has_warned_ = !doubt.empty();
-    if (has_warned_) std::cerr << "query_offline: warning: " << doubt << std::endl;
-  }
-
+  /// A thread answers a block of motions before it takes the next one. Small blocks keep all
+  /// threads busy until the end of a round. Each block costs a few microseconds.
   void answer_round() {
-    const std::size_t size = block_size(motions_.size(), threads_.count());
-    const auto begin = [&](std::size_t block) { return std::min(block * size, motions_.size()); };
-    std::vector<std::string> answers((motions_.size() + size - 1) / size);
+    const std::size_t size = std::clamp<std::size_t>(round_.size() / (4 * threads_.count()), 1, 8);
+    const auto begin = [&](std::size_t block) { return std::min(block * size, round_.size()); };
+    std::vector<std::string> answers((round_.size() + size - 1) / size);
     const auto answer = [&](std::size_t worker, std::size_t block) {
-      for (std::size_t motion = begin(block); motion < begin(block + 1); ++motion) {
-        append_answer(motion, threads_.query(worker), answers[block]);
+      for (std::size_t i = begin(block); i < begin(block + 1); ++i) {
+        CollisionResult result;
+        threads_.query(worker).evaluate(request_of(round_[i], organ_, options_.asked), result);
+        append_contacts(round_[i], result, options_.asked, answers[block]);
+        if (options_.blank_lines) answers[block] += '\n';
       }
     };
     const auto deliver = [&](std::size_t block) {
@@ -245,48 +254,32 @@ class Evaluation {
     threads_.run(answers.size(), answer, deliver);
   }
 
-  void append_answer(std::size_t number, CollisionQuery& query, std::string& csv) const {
-    const Motion& motion = motions_[number];
-    AskedOrgan organ = shapes_.shapes_of(number);
-    organ.topology = topology_ ? &*topology_ : nullptr;
-    CollisionResult result;
-    query.evaluate(request_of(motion, organ, questions_), result);
-    append_contacts(motion, result, questions_, csv);
-    if (questions_.blank_lines) csv += '\n';
-  }
-
-  const Questions& questions_;
-  Motions& source_;
-  ShapeSource& shapes_;
-  std::optional<SurfaceTopology> topology_;  ///< set only if the placement is asked for
-  std::vector<Motion> motions_;              ///< the motions of the present round
-  std::exception_ptr error_;                 ///< why no round follows, if that is an error
-  QueryWorkers threads_;
+  const Options& options_;
+  Motions& motions_;
+  AskedOrgan organ_;
+  std::vector<Motion> round_;
+  std::exception_ptr error_;  ///< why no round follows, if that is an error
+  QueryThreads<CollisionQuery> threads_;
   Progress progress_;
-  bool has_warned_ = false;
-  std::size_t done_ = 0;  ///< how many motions are answered
+  bool has_warned_ = false;  ///< of the first shaft of implausible radius
+  std::size_t done_ = 0;     ///< how many motions are answered
 };
 
 void answer(const Options& options) {
-  const bool has_recording = !options.shapes.empty();
-  ShapeSource shapes =
-      has_recording ? ShapeSource(options.shapes) : ShapeSource(options.mesh, options.mesh_before);
-  const std::string doubt = doubt_about_organ(has_recording ? options.shapes : options.mesh,
-                                              shapes.first().box().cast<double>());
-  if (!doubt.empty()) std::cerr << "query_offline: warning: " << doubt << std::endl;
-  Motions motions(options.motions,
-                  has_recording ? Motions::Order::kAsInFile : Motions::Order::kByQuery);
-  const std::optional<std::size_t> count = motions.count();
-  if (has_recording && count && *count != shapes.remaining()) {
-    throw InputError(concatenate(options.motions, ": the file has ", *count, " motions; ",
-                                 options.shapes, " has ", shapes.remaining(),
-                                 " OBJ files, and each needs one motion"));
-  }
-  Evaluation(options.questions, motions, shapes).run();
-  const TextReader& text = motions.text();
-  if (count || !text.ends_within_line()) return;
-  std::cerr << text.error("warning: the last line has no line feed; its end may be missing").what()
-            << std::endl;
+  const TriangleMesh mesh = mesh_of(options.mesh);
+  const bool moves = !options.mesh_before.empty();
+  const TriangleMesh before = moves ? shape_of(options.mesh_before, mesh, options.mesh) : mesh;
+  warn(doubt_about_organ(options.mesh, mesh.box().cast<double>()));
+  std::optional<SurfaceTopology> topology;
+  if (options.asked.placement) topology.emplace(mesh.faces(), mesh.vertices());
+  AskedOrgan organ{&mesh, moves ? &before : nullptr};
+  organ.topology = topology ? &*topology : nullptr;
+  Motions motions(options.motions);
+  Evaluation(options, motions, organ).run();
+  if (!motions.ends_within_line()) return;
+  std::cerr
+      << motions.error("warning: the last line has no line feed; its end may be missing").what()
+      << std::endl;
 }
 
 }  // namespace

@@ -18,12 +18,12 @@ namespace {
 
 /// The times of recording may go back by this much although no clock jumped, because rosbag record
 /// writes with several threads.
-const ros::Duration kDisorder(0.1);
+constexpr double kDisorder = 0.1;
 /// If no message was recorded for longer than this, no ticks are replayed in the gap.
-const ros::Duration kLongestGap(10.0);
+constexpr double kLongestGap = 10.0;
 /// If no message was recorded for longer than this, the node may have taken a step of its own
 /// before the next message.
-const ros::Duration kSilence(1.0);
+constexpr double kSilence = 1.0;
 
 }  // namespace
 
@@ -111,9 +111,9 @@ void Replay::go_to(ros::Time time) {
   if (start_.isZero()) start_ = time;
   if (time >= now_) {
     if (!now_.isZero()) evaluate_before(time);
-    if (next_tick_.isZero() || time > next_tick_ + kLongestGap) next_tick_ = time;
+    if (next_tick_.isZero() || seconds_between(next_tick_, time) > kLongestGap) next_tick_ = time;
     now_ = time;
-  } else if (follows_clock_ || now_ - time > kDisorder) {
+  } else if (follows_clock_ || seconds_between(time, now_) > kDisorder) {
     now_ = next_tick_ = time;
   }
   ros::Time::setNow(now_);
@@ -122,7 +122,7 @@ void Replay::go_to(ros::Time time) {
 
 /// Evaluates what is due between now and `time`: ticks, and shapes whose transforms did not come.
 void Replay::evaluate_before(ros::Time time) {
-  const bool ticks = parameters_.rate_hz > 0.0 && time <= next_tick_ + kLongestGap;
+  const bool ticks = parameters_.rate_hz > 0.0 && seconds_between(next_tick_, time) <= kLongestGap;
   while (true) {
     const auto deadline = pipeline_.steps.next_deadline();
     const bool is_tick = ticks && (!deadline || next_tick_ < ros_time(*deadline));
@@ -133,12 +133,13 @@ void Replay::evaluate_before(ros::Time time) {
     ros::Time::setNow(now_);
     if (is_tick) {
       pipeline_.steps.add_tick();
-      next_tick_ += ros::Duration(1.0 / parameters_.rate_hz);
+      next_tick_ = later(next_tick_, 1.0 / parameters_.rate_hz);
     }
     pipeline_.steps.evaluate(steady(due));
   }
   // The node looks for steps that become too long also while no message comes.
-  if (time - now_ > kSilence) pipeline_.steps.evaluate(steady(time) - std::chrono::nanoseconds(1));
+  if (seconds_between(now_, time) > kSilence)
+    pipeline_.steps.evaluate(steady(time) - std::chrono::nanoseconds(1));
 }
 
 /// The time since the first time of the bag, or 0 if that has not come yet. The waiting times of

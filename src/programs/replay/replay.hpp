@@ -38,6 +38,7 @@ class Replay {
     std::vector<Handler> handlers = {};
   };
   const std::map<std::string, Topic>& topics() const { return topics_; }
+  bool reads(const std::string& topic) const { return topics_.count(topic) > 0; }
   /// Whether TF, or a topic of poses, has told of a frame.
   bool knows_frame(const std::string& frame) const {
     return pipeline_.inbox.transforms._frameExists(frame);

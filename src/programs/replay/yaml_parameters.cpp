@@ -1,12 +1,13 @@
 #include "yaml_parameters.hpp"
 
+#include <ros/names.h>
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
-#include <set>
+#include <sstream>
 
 #include "common/messages/robot_reply.hpp"
 #include "common/program/user_input.hpp"
@@ -27,14 +28,14 @@ constexpr int kMostNodes = 1'000'000;
 
 XmlRpcValue scalar(const YAML::Node& node) {
   const std::string& text = node.Scalar();
-  const bool is_plain = node.Tag() != "!" && node.Tag() != "tag:yaml.org,2002:str";
+  if (node.Tag() == "!" || node.Tag() == "tag:yaml.org,2002:str") return text;
   bool flag = false;
   int whole = 0;
   double number = 0.0;
   // YAML::convert takes y and n for flags, and the parameter server takes them for texts.
-  if (is_plain && text.size() > 1 && YAML::convert<bool>::decode(node, flag)) return flag;
-  if (is_plain && YAML::convert<int>::decode(node, whole)) return whole;
-  if (is_plain && YAML::convert<double>::decode(node, number)) return number;
+  if (text.size() > 1 && YAML::convert<bool>::decode(node, flag)) return flag;
+  if (YAML::convert<int>::decode(node, whole)) return whole;
+  if (YAML::convert<double>::decode(node, number)) return number;
   return text;
 }
 
@@ -55,16 +56,12 @@ XmlRpcValue converted(const YAML::Node& node, int level, int& nodes) {
     }
     return values;
   }
-  const auto size = static_cast<int>(node.size());
-  values.setSize(size);
-  for (int i = 0; i < size; ++i) values[i] = converted(node[i], level + 1, nodes);
+  values.setSize(static_cast<int>(node.size()));
+  for (int i = 0; i < values.size(); ++i) values[i] = converted(node[i], level + 1, nodes);
   return values;
 }
 
 XmlRpcValue read(const std::string& file) {
-  if (std::filesystem::is_directory(file)) {
-    throw InputError(file + ": is a folder; must be a yaml file");
-  }
   std::ifstream stream(file);
   if (!stream) throw InputError(file + ": cannot be opened: " + std::strerror(errno));
   try {
@@ -79,55 +76,46 @@ XmlRpcValue read(const std::string& file) {
   }
 }
 
-/// The value with a name such as a/b below a group; null if there is none.
-const XmlRpcValue* find(const XmlRpcValue& group, const std::string& name) {
-  if (name.empty()) return &group;
-  const std::size_t slash = name.find('/');
-  const std::string first = name.substr(0, slash);
-  if (group.getType() != XmlRpcValue::TypeStruct || !group.hasMember(first)) return nullptr;
-  const XmlRpcValue& member = group[first];
-  return slash == std::string::npos ? &member : find(member, name.substr(slash + 1));
+/// The value with a full name, such as /a/b; null if there is none.
+const XmlRpcValue* find(const XmlRpcValue& tree, const std::string& name) {
+  const XmlRpcValue* value = &tree;
+  std::istringstream parts(name.substr(1));
+  for (std::string part; std::getline(parts, part, '/');) {
+    if (value->getType() != XmlRpcValue::TypeStruct || !value->hasMember(part)) return nullptr;
+    value = &(*value)[part];
+  }
+  return value;
 }
-
-std::string without_slash(const std::string& name) {
-  return name.empty() || name.front() != '/' ? name : name.substr(1);
-}
-
-std::string first_part(const std::string& name) { return name.substr(0, name.find('/')); }
 
 }  // namespace
 
 YamlParameters::YamlParameters(const std::string& file, const std::string& node)
     : file_(file), tree_(read(file)) {
-  const XmlRpcValue* group = find(tree_, without_slash(node));
-  if (group && group->getType() == XmlRpcValue::TypeStruct) node_ = without_slash(node);
+  const XmlRpcValue* group = find(tree_, node);
+  if (group && group->getType() == XmlRpcValue::TypeStruct) node_ = node;
 }
 
 const XmlRpcValue& YamlParameters::group() const { return *find(tree_, node_); }
 
 NodeParameters YamlParameters::node_parameters() const {
-  const XmlRpcValue& group = this->group();
-  NodeParameters parameters = parse_parameters<NodeParameters>(group);
-  if (!node_.empty()) return parameters;
-  // The descriptions of robots stand beside the node's parameters. They are no misspelt parameters.
-  std::set<std::string> robots;
-  for (const ToolParameters& tool : parameters.tools) {
-    robots.insert(first_part(without_slash(tool.robot_description)));
+  const auto tools = parse_parameters<NodeParameters>(group()).tools;
+  XmlRpcValue parameters;
+  parameters.begin();  // Makes it a group.
+  for (const auto& [name, value] : group()) {
+    // The descriptions of robots may stand beside the node's parameters.
+    const auto is_in = [start = name + "/"](const ToolParameters& tool) {
+      return (tool.robot_description + "/").find(start) <= 1;
+    };
+    if (std::none_of(tools.begin(), tools.end(), is_in)) parameters[name] = value;
   }
-  XmlRpcValue rest;
-  for (const auto& [name, value] : group) {
-    if (robots.count(name) == 0) rest[name] = value;
-  }
-  return parse_parameters<NodeParameters>(rest);
+  return parse_parameters<NodeParameters>(parameters);
 }
 
 std::string YamlParameters::find_text(const std::string& parameter) const {
-  const std::string name = without_slash(parameter);
-  std::string space = name == parameter ? node_ : "";
-  while (!space.empty() && !find(*find(tree_, space), first_part(name))) {
-    space.resize(space.find('/') == std::string::npos ? 0 : space.rfind('/'));
-  }
-  const XmlRpcValue* value = find(*find(tree_, space), name);
+  std::string space = node_;
+  const auto found = [&] { return find(tree_, ros::names::resolve(space, parameter, false)); };
+  while (!found() && space != "/") space = ros::names::parentNamespace(space);
+  const XmlRpcValue* const value = found();
   if (!value) throw ToolError("is not in " + file_ + "; add it, or give the tool's urdf");
   if (value->getType() != XmlRpcValue::TypeString) throw ToolError("is no text; must be a URDF");
   return static_cast<const std::string&>(*value);

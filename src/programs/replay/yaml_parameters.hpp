@@ -12,7 +12,7 @@ namespace organ_collision {
 class YamlParameters {
  public:
   /// Reads a file with the parameters of the node, or with the whole tree of parameters, in which
-  /// the node has its full name. Throws InputError.
+  /// the node has its full name, `node`. Throws InputError.
   YamlParameters(const std::string& file, const std::string& node);
 
   /// The parameters of the node, as they stand in the file.
@@ -26,7 +26,7 @@ class YamlParameters {
  private:
   std::string file_;
   XmlRpc::XmlRpcValue tree_;
-  std::string node_;  ///< the node's namespace in the tree; empty: it is the whole tree
+  std::string node_ = "/";  ///< the node's name in the tree; "/": the whole tree is the node's
 };
 
 }  // namespace organ_collision

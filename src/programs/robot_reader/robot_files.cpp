@@ -3,14 +3,12 @@
 #include <ros/package.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
-#include <sys/time.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <boost/algorithm/string/predicate.hpp>
 #include <cctype>
 #include <cerrno>
-#include <chrono>
+#include <csignal>
 #include <system_error>
 #include <utility>
 
@@ -25,31 +23,8 @@ namespace {
 using Eigen::Affine3d;
 using Eigen::Vector3d;
 
-/// [bytes] The largest address space. It holds a file, its parsed form, and the reply to the node.
+/// [bytes] The largest address space. It holds a file, its parsed form, and the reply.
 constexpr rlim_t kMemoryBytes = rlim_t{2} << 30;
-/// [bytes] The longest reply to the node.
-constexpr rlim_t kReplyBytes = 500'000'000;
-/// [s] The most processor time. For files of the largest legal size, this program needs a few
-/// seconds.
-constexpr rlim_t kProcessorTime = 10;
-/// [s] The most real time. On a busy machine, it is longer than processor time.
-constexpr unsigned kRealTime = 30;
-/// The most processor time for the URDF, and for each mesh file, is kParsingTime, and a millisecond
-/// more for every kBytesPerMillisecond bytes. Some broken files keep a parser busy for ever. An OBJ
-/// file is read with 30 MB a second.
-constexpr std::chrono::milliseconds kParsingTime{200};
-constexpr std::size_t kBytesPerMillisecond = 2000;
-
-/// Lowers a limit of the process. A limit that is already lower stays as it is.
-template <typename Resource>
-void limit(Resource resource, rlim_t value) {
-  rlimit limits{};
-  if (getrlimit(resource, &limits) == 0) {
-    limits.rlim_cur = std::min(limits.rlim_cur, value);
-    if (setrlimit(resource, &limits) == 0) return;
-  }
-  throw std::system_error(errno, std::generic_category(), "setrlimit");
-}
 
 const std::string kPackage = "package://";
 const std::string kFile = "file://";
@@ -93,29 +68,17 @@ std::string path_of_url(const std::string& url) {
 }  // namespace
 
 void limit_process() {
-  alarm(kRealTime);
-  limit(RLIMIT_FSIZE, kReplyBytes);
-  limit(RLIMIT_CPU, kProcessorTime);
 #ifndef ORGAN_COLLISION_SANITIZED  // Sanitizers reserve terabytes of address space.
-  limit(RLIMIT_AS, kMemoryBytes);
+  rlimit limits{};
+  getrlimit(RLIMIT_AS, &limits);
+  limits.rlim_cur = std::min(limits.rlim_cur, kMemoryBytes);
+  if (setrlimit(RLIMIT_AS, &limits) != 0) {
+    throw std::system_error(errno, std::generic_category(), "setrlimit");
+  }
 #endif
   // RLIMIT_CORE is not enough: it has no effect where the kernel pipes core dumps to a program.
   prctl(PR_SET_DUMPABLE, 0);
-}
-
-ScopedTimeLimit::ScopedTimeLimit(std::size_t bytes) {
-  const std::chrono::milliseconds more(bytes / kBytesPerMillisecond);
-  const std::chrono::milliseconds time = kParsingTime + more;
-  itimerval timer{};
-  timer.it_value.tv_sec = time.count() / 1000;
-  timer.it_value.tv_usec = time.count() % 1000 * 1000;
-  if (setitimer(ITIMER_PROF, &timer, nullptr) == 0) return;
-  throw std::system_error(errno, std::generic_category(), "setitimer");
-}
-
-ScopedTimeLimit::~ScopedTimeLimit() {
-  const itimerval never{};
-  setitimer(ITIMER_PROF, &never, nullptr);
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
 }
 
 std::string read_resource(const std::string& name) {
@@ -127,7 +90,6 @@ std::string read_resource(const std::string& name) {
 }
 
 RobotShape mesh_shape(const std::string& file, const std::string& content) {
-  const ScopedTimeLimit time_limit(content.size());
   MeshFile mesh = parse_mesh(file, content);
   RobotShape shape;
   shape.kind = RobotShape::MESH;
@@ -149,7 +111,7 @@ RobotShape read_mesh_file(const std::string& file, const Vector3d& scale,
                                           static_cast<Eigen::Index>(shape.vertices.size() / 3));
     vertices = (T_link_mesh * Eigen::Scaling(scale) * vertices).eval();
     return shape;
-  } catch (const std::exception& error) {
+  } catch (const std::runtime_error& error) {
     throw ToolError(std::string("mesh ") + error.what());
   }
 }

@@ -3,9 +3,6 @@
 #include <console_bridge/console.h>
 #include <urdf_parser/urdf_parser.h>
 
-#include <exception>
-
-#include "common/messages/robot_reply.hpp"
 #include "common/messages/text.hpp"
 #include "robot_files.hpp"
 
@@ -128,35 +125,23 @@ RobotLink read_link(const urdf::ModelInterface& model, const std::vector<std::st
   }
 }
 
-std::vector<RobotLink> read_links(const std::string& urdf, const std::vector<std::string>& names,
-                                  const MeshFiles& files) {
+}  // namespace
+
+std::vector<RobotLink> read_links(const std::string& urdf, const std::vector<std::string>& links,
+                                  const std::string& folder,
+                                  const std::function<void(const std::string&)>& about_to_read) {
   std::vector<std::string> errors;
   urdf::ModelInterfaceSharedPtr model;
   {
     const ScopedErrorCollector collector(errors);
-    const ScopedTimeLimit time_limit(urdf.size());
     model = urdf::parseURDF(urdf);
   }
   if (!model) throw ToolError("no legal URDF: " + listed(errors));
-  std::vector<RobotLink> links;
-  for (const std::string& name : names) {
-    links.push_back(read_link(*model, errors, name, files));
+  std::vector<RobotLink> found;
+  for (const std::string& name : links) {
+    found.push_back(read_link(*model, errors, name, {folder, about_to_read}));
   }
-  return links;
-}
-
-}  // namespace
-
-void answer_with_links(const std::function<std::string()>& urdf,
-                       const std::vector<std::string>& links,
-                       const std::function<void(const std::string&)>& write,
-                       const std::string& folder) {
-  try {
-    const MeshFiles files{folder, [&](const std::string& mesh) { write(reading_record(mesh)); }};
-    write(links_record(read_links(urdf(), links, files)));
-  } catch (const std::exception& error) {
-    write(refusal_record(error.what()));
-  }
+  return found;
 }
 
 }  // namespace organ_collision

@@ -1,8 +1,10 @@
 // Reads links of a robot for the node, and mesh files for Python. A broken file may end this
-// program, but not its caller. robot_reply.hpp describes what it writes to standard output.
+// program, but not its caller.
 
+#include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
@@ -22,24 +24,15 @@ constexpr char kUsage[] = R"(Usage: robot_reader URDF LINK...
 
 Reads the shapes of a robot's links, or a mesh file, and writes them to standard output, in binary
 form. The collision node and Python run this program, so that a broken file cannot end them.
-URDF: a file or URL, or - for standard input.
+URDF: a file or URL, or - for standard input. FILE: likewise; on standard input, it is a PLY file.
+Exit status: 0 done; 2 what cannot be read, with the reason in the last line on stderr. If the program
+is ended otherwise, that line names the mesh that was read.
 )";
 
-std::string read_urdf(const std::string& name) {
-  if (name != "-") return read_resource(name);
-  return {std::istreambuf_iterator<char>(std::cin), {}};
-}
+/// The name of a mesh on standard input. Its ending tells the format.
+constexpr char kInputMesh[] = "standard input.ply";
 
-/// A link without a joint, whose only shape is the mesh, or a refusal.
-std::string mesh_record(const std::string& file) {
-  try {
-    RobotLink link;
-    link.shapes.push_back(mesh_shape(file, read_file(file)));
-    return links_record({link});
-  } catch (const std::exception& error) {
-    return refusal_record(error.what());
-  }
-}
+std::string standard_input() { return {std::istreambuf_iterator<char>(std::cin), {}}; }
 
 }  // namespace
 
@@ -54,22 +47,38 @@ int main(int argc, char** argv) {
     std::cerr << "robot_reader: '" << first << "' is no URDF; must be a file, a URL or -\n";
     return 2;
   }
-  // Standard output is for replies only. What libraries print there goes to standard error.
-  std::FILE* const replies = fdopen(dup(STDOUT_FILENO), "w");
-  dup2(STDERR_FILENO, STDOUT_FILENO);
-  const auto urdf = [&] {
-    limit_process();
-    return read_urdf(argv[1]);
+  // Standard output and standard error are for this program only, not for what libraries print.
+  const int output = dup(STDOUT_FILENO), errors = dup(STDERR_FILENO);
+  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  dup2(nowhere, STDOUT_FILENO);
+  dup2(nowhere, STDERR_FILENO);
+  const auto tell = [&](std::string line) {
+    std::replace(line.begin(), line.end(), '\n', ' ');
+    dprintf(errors, "%s\n", line.c_str());
   };
-  const auto write = [&](const std::string& record) {
-    const bool is_written = std::fwrite(record.data(), 1, record.size(), replies) == record.size();
-    if (!is_written || std::fflush(replies) != 0) std::exit(EXIT_FAILURE);
-  };
-  if (is_mesh) {
+  std::string reading;
+  const auto about_to_read = [&](const std::string& mesh) { tell(reading = mesh); };
+  try {
     limit_process();
-    write(mesh_record(argv[2]));
-    return EXIT_SUCCESS;
+    std::vector<RobotLink> links(1);
+    if (is_mesh) {
+      const bool is_input = std::string(argv[2]) == "-";
+      reading = is_input ? kInputMesh : argv[2];
+      links[0].shapes.push_back(
+          mesh_shape(reading, is_input ? standard_input() : read_file(reading)));
+    } else {
+      const std::string folder = first.substr(0, first.find_last_of('/') + 1);  // Empty for "-".
+      const std::string urdf = first == "-" ? standard_input() : read_resource(first);
+      links = read_links(urdf, {argv + 2, argv + argc}, folder, about_to_read);
+    }
+    const std::string reply = reply_of(links);
+    std::FILE* const stream = fdopen(output, "w");
+    std::fwrite(reply.data(), 1, reply.size(), stream);
+    return std::fclose(stream) == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+  } catch (const std::bad_alloc&) {
+    tell((reading.empty() ? "" : reading + ": ") + "there is not enough memory to read it");
+  } catch (const std::exception& error) {
+    tell(error.what());
   }
-  const std::string folder = first.substr(0, first.find_last_of('/') + 1);  // Empty for "-".
-  answer_with_links(urdf, {argv + 2, argv + argc}, write, folder);
+  return 2;
 }
