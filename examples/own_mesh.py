@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Sends a mesh file as an organ, dips the probe of start.launch into its highest place, and prints what is touched.
-With --rest, it only sends the organ and prints, and another program moves the tool."""
+With --rest, it only sends the organ and prints, and another program moves the tool. With --ply, it only converts the file."""
 
 import argparse
 import math
@@ -9,7 +9,7 @@ import sys
 import time
 
 from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
-from organ_collision import contact_table, MeshFileError, Organ, read_mesh
+from organ_collision import contact_table, MeshFileError, Organ, read_mesh, write_ply
 from organ_collision.msg import ContactArray
 import numpy as np
 import rospkg
@@ -23,6 +23,7 @@ options.add_argument('--scale', type=float, default=1.0, help='metres for each u
 options.add_argument('--lps', action='store_true', help="the file's axes point left, posterior and superior, as in files that 3D Slicer saves")
 options.add_argument('--rest', action='store_true', help='sends only the organ, which rests, and no frames of the probe')
 options.add_argument('--frame', default='organ', help='the TF frame of the mesh; default: organ')
+options.add_argument('--ply', metavar='NEW.ply', help='writes the mesh into this file, in metres, and ends')
 options = options.parse_args(rospy.myargv()[1:])
 KIDNEY = os.path.join(rospkg.RosPack().get_path('organ_collision'), 'examples', 'kidney.obj')
 
@@ -75,6 +76,8 @@ def main():
     global started
     vertices, faces = read_mesh(options.file or KIDNEY, options.scale, options.lps)
     describe(vertices, faces)
+    if options.ply:
+        return write_ply(options.ply, vertices, faces)
     rospy.init_node('own_mesh')
     rospy.Subscriber('/organ_collision/contacts', ContactArray, show)
     frames = tf2_ros.TransformBroadcaster()

@@ -1,11 +1,13 @@
 #!/usr/bin/python3
 """The same file gives the same vertices and faces, or the same refusal, in read_mesh, query_offline, own_mesh.py and as a
-mesh of a URDF. The files are those that 3D Slicer, ParaView, MeshLab, CAD programs and others write."""
+mesh of a URDF; VTK's files, in Python, and in the others once they are converted. The files are those that 3D Slicer,
+ParaView, MeshLab, CAD programs and others write."""
 
 import csv
-import io
 import os
 import pathlib
+import re
+import shlex
 import shutil
 import subprocess
 import tempfile
@@ -40,6 +42,17 @@ OTHERS = {
     'strip.vtk': ('# vtk DataFile Version 3.0\na\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n0 0 0 1 0 0 0 1 0 1 1 0\n'
                   'TRIANGLE_STRIPS 1 5\n4 0 1 2 3\n', [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], [[0, 1, 2], [1, 3, 2]]),
 }
+
+
+def c_vtp(corners):
+    """A VTK file of one face."""
+    array = '<DataArray type="%s" Name="%s" %sformat="ascii">%s</DataArray>'
+    return ('<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64"><PolyData>'
+            '<Piece NumberOfPoints="3" NumberOfPolys="1"><Points>%s</Points><Polys>%s%s</Polys></Piece></PolyData></VTKFile>'
+            % (array % ('Float32', 'p', 'NumberOfComponents="3" ', '0 0 0 1 0 0 0 1 0'),
+               array % ('Int64', 'connectivity', '', corners), array % ('Int64', 'offsets', '', '3')))
+
+
 REFUSED = {
     'nowhere.stl': (None, 'there is no such file'),
     'empty.ply': (b'', 'it is empty'),
@@ -48,6 +61,10 @@ REFUSED = {
     'cut.off': (b'OFF 3 1 0\n0 0 0\n', 'the file ends before it has 3 of the element "vertex"; it may be cut off'),
     'text.liver': (b'This is no mesh.\n', 'No suitable reader found for the file format of file'),
     'tetrahedron.vtu': (b'<VTKFile', 'VTK cannot read it'),
+    'nowhere.vtk': (None, 'there is no such file'),
+    'cut.vtk': ('# vtk DataFile Version 3.0\na\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n0 0 0 1 0 0 0 1 0\nPOLYGONS 1 4\n3 0 1 2\n',
+                'VTK cannot read it: '),
+    'large_index.vtp': (c_vtp('0 1 4294967299'), 'a face refers to vertex 4294967299; the file has 3, counted from 0'),
     'bcount0.stl': (None, 'its header counts 0 triangles, for which it must have 84 bytes; the file has 684 bytes, as for 12 triangles'),
     'bcut.stl': (None, 'its header counts 12 triangles, for which it must have 684 bytes; the file has 664 bytes, as for 11 triangles'),
 }
@@ -98,14 +115,10 @@ class MeshFilesTest(unittest.TestCase):
         """Vertices and faces, or the refusal, of the only link."""
         urdf = ('<robot name="r"><link name="l"><collision><geometry><mesh filename="%s"/></geometry></collision></link>'
                 '</robot>' % path)
-        reply = self.run_program('ROBOT_READER', '-', 'l', text=urdf).stdout
-        reading = RobotRecord().deserialize(reply)
-        size = io.BytesIO()
-        reading.serialize(size)
-        record = RobotRecord().deserialize_numpy(reply[len(size.getvalue()):], np)
-        if record.kind == RobotRecord.REFUSAL:
-            return record.text
-        shape = record.links[0].shapes[0]
+        done = self.run_program('ROBOT_READER', '-', 'l', text=urdf)
+        if done.returncode == 2:
+            return done.stderr.decode().splitlines()[-1]
+        shape = RobotRecord().deserialize_numpy(done.stdout[4:], np).links[0].shapes[0]
         return shape.vertices.reshape(-1, 3), shape.triangles.reshape(-1, 3)
 
     def offline(self, path, points):
@@ -130,6 +143,11 @@ class MeshFilesTest(unittest.TestCase):
         return text
 
     def assert_mesh(self, path, vertices, faces, name):
+        if '.vt' in name:
+            found = read_mesh(path)
+            np.testing.assert_array_equal(found[0].astype('f'), np.float32(vertices), err_msg=name)
+            np.testing.assert_array_equal(found[1], faces, err_msg=name)
+            path = self.converted(path)
         for found_vertices, found_faces in read_mesh(path), self.urdf_mesh(path):
             np.testing.assert_array_equal(found_vertices.astype('f'), np.float32(vertices), err_msg=name)
             np.testing.assert_array_equal(found_faces, faces, err_msg=name)
@@ -142,14 +160,25 @@ class MeshFilesTest(unittest.TestCase):
             self.assertTrue(self.own_mesh(path).startswith(
                 '%d vertices, %d faces, ' % (len(vertices), len(faces))), name)
 
+    def converted(self, path):
+        """The file that the command makes which query_offline and the meshes of a URDF name when they refuse a VTK file."""
+        text = self.offline(path, [[0, 0, 0]])
+        self.assertEqual(self.urdf_mesh(path) + '\n', "link 'l': mesh " + text)
+        words = shlex.split(re.fullmatch(r"(.*): VTK's files are read .*'rosrun organ_collision own_mesh.py (.*)' makes .*\n", text)[2])
+        pathlib.Path(self.folder / 'numpy.py').write_text('print("a module from the current folder")\n')
+        printed = subprocess.check_output(['/usr/bin/python3', os.environ['OWN_MESH'], *words], cwd=str(self.folder), text=True)
+        self.assertRegex(printed, r'\A\d+ vertices, ')
+        return words[-1]
+
     def assert_refused(self, path, why, name):
         with self.assertRaises(MeshFileError) as caught:
             read_mesh(path)
         text = str(caught.exception)
         self.assertRegex(text, r'\A%s:(\d+:)? ' % path)
         self.assertIn(why, text, name)
-        self.assertEqual(self.urdf_mesh(path), "link 'l': mesh " + text, name)
-        self.assertEqual(self.offline(path, [[0, 0, 0]]), text + '\n', name)
+        if '.vt' not in name:
+            self.assertEqual(self.urdf_mesh(path), "link 'l': mesh " + text, name)
+            self.assertEqual(self.offline(path, [[0, 0, 0]]), text + '\n', name)
         if name in OF_OWN_MESH:
             self.assertEqual(self.own_mesh(path), 'own_mesh.py: %s\n' % text, name)
 
@@ -162,6 +191,19 @@ class MeshFilesTest(unittest.TestCase):
                     self.assert_mesh(self.path(name, content), vertices, faces, name)
                 else:
                     self.assert_refused(self.path(name, content), 'needs VTK: install the package python3-vtk9', name)
+
+    @unittest.skipIf('ASAN_OPTIONS' in os.environ, 'sanitizers reserve terabytes')
+    def test_a_mesh_that_needs_too_much_memory(self):
+        """The last line names it and the cause, also behind lines of libraries."""
+        path = self.path('large.obj', 'v 0 0 0\nv 1 0 0\nv 0 1 0\n' + 2000000 * 'f 1 2 3\n')
+        urdf = '<robot name="r"><link name="l"><collision><geometry><mesh filename="%s"/></geometry></collision></link></robot>'
+        reader = 'ulimit -v %d; exec "$ROBOT_READER" - l'
+        for most, status, said in (100000, 2, 'not enough memory'), (2000000, 0, "link 'l': mesh '%s'" % path):
+            done = subprocess.run(['sh', '-c', reader % most], input=(urdf % path).encode(), stdout=subprocess.PIPE,
+                                  stderr=subprocess.PIPE, timeout=100)
+            last = done.stderr.decode().splitlines()[-1]
+            self.assertEqual(done.returncode, status, last)
+            self.assertTrue(path in last and said in last, last)
 
     def test_the_corners_of_stl_become_shared_vertices(self):
         for name in ('bextra.stl', 'bsolid.stl', 'upper.STL'):

@@ -9,7 +9,6 @@
 #include <boost/algorithm/string/case_conv.hpp>
 #include <boost/algorithm/string/predicate.hpp>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -83,77 +82,14 @@ void read_with_assimp(MeshText& text, const std::string& content, const std::str
   add(*scene->mRootNode, *scene, Affine3d::Identity(), mesh);
 }
 
-/// Writes the surface in the VTK file on standard input to standard output as a PLY file, or why it
-/// cannot. It must not have single quotes. Cells of three dimensions have no surface.
-constexpr char kVtkScript[] = R"(
-import sys
-def refuse(why):
-    print("refused: " + why)
-    sys.exit(1)
-try:
-    import numpy
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-    from vtkmodules.vtkIOLegacy import vtkGenericDataObjectReader as vtk
-    from vtkmodules.vtkIOXML import vtkXMLPolyDataReader as vtp, vtkXMLUnstructuredGridReader as vtu
-except ImportError:
-    refuse("needs VTK: install the package python3-vtk9")
-reader, errors = {"vtk": vtk, "vtp": vtp, "vtu": vtu}[sys.argv[1]](), []
-def heard(source, event, text): errors.append(" ".join(text.split()))
-heard.CallDataType = "string0"
-for source in (reader, reader.GetExecutive()): source.AddObserver("ErrorEvent", heard)
-reader.SetFileName("/dev/stdin")
-reader.Update()
-data = reader.GetOutputDataObject(0)
-if errors or not data or not data.IsA("vtkPointSet") or not data.GetPoints():
-    refuse("VTK cannot read it: " + (errors or ["it has no points, or is no polygonal mesh"])[0].split("): ", 1)[-1])
-def cells(array): return [vtk_to_numpy(part) for part in (array.GetOffsetsArray(), array.GetConnectivityArray())]
-def triangles(strip): return [strip[[i, i + 1 + i % 2, i + 2 - i % 2]] for i in range(len(strip) - 2)]
-def split(at, ids): return numpy.split(ids, at[1:-1])
-if data.IsA("vtkPolyData"):
-    at, ids = cells(data.GetPolys())
-    strips = [face for strip in split(*cells(data.GetStrips())) for face in triangles(strip)]
-    sizes, ids = numpy.append(numpy.diff(at), numpy.full(len(strips), 3)), numpy.concatenate([ids, *strips])
-else:
-    (at, ids), kinds = cells(data.GetCells()), vtk_to_numpy(data.GetCellTypesArray())
-    third = at[:-1][kinds == 8] + 2  # Pixels have their last two corners in the other order.
-    ids[third], ids[third + 1] = ids[third + 1], ids[third]
-    if (kinds == 6).any():
-        faces = [face for kind, cell in zip(kinds, split(at, ids)) for face in (triangles(cell) if kind == 6 else [cell])]
-        kinds = numpy.concatenate([[5] * (len(cell) - 2) if kind == 6 else [kind] for kind, cell in zip(kinds, split(at, ids))])
-        at, ids = numpy.cumsum([0, *map(len, faces)]), numpy.concatenate(faces)
-    sizes, is_face = numpy.diff(at), numpy.isin(kinds, (5, 7, 8, 9))
-    ids, sizes = ids[numpy.repeat(is_face, sizes)], sizes[is_face]
-points = vtk_to_numpy(data.GetPoints().GetData()).astype("<f8")
-print("ply\nformat binary_little_endian 1.0\nelement vertex", len(points), "\nproperty double x\nproperty double y\nproperty double z"
-      "\nelement face", len(sizes), "\nproperty list int int vertex_indices\nend_header", flush=True)
-sys.stdout.buffer.write(points.tobytes())
-sys.stdout.buffer.write(numpy.insert(ids, numpy.cumsum(sizes) - sizes, sizes).astype("<i4").tobytes())
-)";
-
-/// The surface in a VTK file as a PLY file. VTK reads it in a process of its own, because a broken
-/// file may end it.
-std::string ply_of_vtk(const MeshText& text, const std::string& content,
-                       const std::string& ending) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> input(std::tmpfile(), std::fclose);
-  if (!input) throw text.error(concatenate("there is no temporary file: ", std::strerror(errno)));
-  std::fwrite(content.data(), 1, content.size(), input.get());
-  std::rewind(input.get());
-  // The limits of processor time [s] and memory [KiB] are those of robot_reader.
-  const std::string command =
-      concatenate("ulimit -t 10; ulimit -v 2097152; exec /usr/bin/python3 -c '", kVtkScript, "' ",
-                  ending, " <&", fileno(input.get()), " 2>/dev/null");
-  std::FILE* const output = popen(command.c_str(), "r");
-  if (!output) throw text.error(concatenate("python3 cannot run: ", std::strerror(errno)));
-  std::string ply;
-  char piece[4096];
-  for (std::size_t size = 0; (size = std::fread(piece, 1, sizeof piece, output)) > 0;) {
-    ply.append(piece, size);
-  }
-  const int status = pclose(output);
-  if (status == 0 && boost::starts_with(ply, "ply\n")) return ply;
-  const std::string refused = "refused: ";
-  if (!boost::starts_with(ply, refused)) throw text.error("VTK crashes at it");
-  throw text.error(ply.substr(refused.size(), ply.find('\n') - refused.size()));
+/// How to make a file that is read here of a VTK file.
+std::string conversion_of_vtk(const std::string& file) {
+  const bool is_url = boost::contains(file, "://");
+  const std::filesystem::path path = is_url ? "FILE.vtk" : file;
+  std::filesystem::path ply = path;
+  ply.replace_extension(".ply");
+  return concatenate("VTK's files are read by Python alone; 'rosrun organ_collision own_mesh.py ",
+                     path, " --ply ", ply, "' makes a PLY file of it");
 }
 
 }  // namespace
@@ -198,9 +134,7 @@ MeshFile parse_mesh(const std::string& file, const std::string& content) {
   } else if (ending == ".off") {
     read_off(text, mesh);
   } else if (ending == ".vtk" || ending == ".vtp" || ending == ".vtu") {
-    const std::string ply = ply_of_vtk(text, content, ending.substr(1));
-    MeshText ply_text(file, ply);
-    read_ply(ply_text, mesh);
+    throw text.error(conversion_of_vtk(file), 0);
   } else {
     read_with_assimp(text, content, ending.empty() ? ending : ending.substr(1), mesh);
   }

@@ -17,14 +17,14 @@ std::string read_file(const std::string& path);
 
 /// The surface in a mesh file, whose format the ending of its name tells:
 /// - OBJ, STL, PLY and OFF
-/// - VTK (.vtk, .vtp, .vtu) by Debian's VTK in Python, if python3-vtk9 is installed
 /// - DAE and all other formats of assimp. Points, lines, and other files that the file names are
 ///   ignored; lengths in DAE are multiplied by the file's unit; as in RViz, its axes are not
 ///   turned.
 /// Vertices and faces keep the order of the file. In STL, and in what assimp reads, corners at one
 /// place become one vertex. A face's number is its place among the file's faces, from 0; a polygon
-/// of k corners counts as k - 2 faces, see MeshBuilder::finish(). Throws InputError. A broken file
-/// may end the program in assimp; VTK has a process of its own.
+/// of k corners counts as k - 2 faces, see MeshBuilder::finish(). Throws InputError, also for VTK's
+/// files (.vtk, .vtp, .vtu), with the command that converts them. A broken file may end the program
+/// in assimp.
 MeshFile parse_mesh(const std::string& file, const std::string& content);
 
 /// parse_mesh() of what read_file() reads.
