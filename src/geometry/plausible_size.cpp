@@ -17,6 +17,8 @@ constexpr double kSmallestRadius = 2e-5;
 /// [m] Plausible sizes of a link: from a needle's point to the arm of a large robot.
 constexpr double kLargestLink = 3.0;
 constexpr double kSmallestLink = 2e-4;
+/// [m] The largest plausible distance of a tool from an organ: through an operating room.
+constexpr double kLargestDistance = 10.0;
 
 /// The sentence "WHAT; plausible are ..." about a length [m]. Empty if the length is plausible.
 std::string doubt_about(const std::string& what, double length, double smallest, double largest) {
@@ -46,6 +48,13 @@ std::string doubt_about_radius(const std::string& whose, double radius) {
 std::string doubt_about_link(const std::string& tool, const std::string& link, double size) {
   return doubt_about(concatenate("link '", link, "' of tool '", tool, "' is ", size, " m long"),
                      size, kSmallestLink, kLargestLink);
+}
+
+std::string doubt_about_distance(const std::string& tool, const std::string& organ,
+                                 double distance) {
+  return doubt_about(
+      concatenate("tool '", tool, "' is ", distance, " m away from organ '", organ, "'"), distance,
+      0.0, kLargestDistance);
 }
 
 }  // namespace organ_collision

@@ -31,5 +31,8 @@ std::string doubt_about_organ(const std::string& organ, const Eigen::AlignedBox3
 std::string doubt_about_radius(const std::string& whose, double radius);
 /// `size`: the longest side of a box around the link [m].
 std::string doubt_about_link(const std::string& tool, const std::string& link, double size);
+/// `distance`: of a point of the tool from the box around the organ [m].
+std::string doubt_about_distance(const std::string& tool, const std::string& organ,
+                                 double distance);
 
 }  // namespace organ_collision

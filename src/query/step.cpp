@@ -10,6 +10,11 @@ namespace {
 
 using Eigen::Isometry3d;
 
+/// The joints of a link on the leg to a waypoint.
+ChainMotion joints_to(const ToolWaypoint& waypoint, std::size_t link) {
+  return waypoint.joints.empty() ? ChainMotion{} : waypoint.joints[link];
+}
+
 /// The number of equal parts into which a leg is divided, so that no link, and nothing that carries
 /// an end of the shaft's axis, turns by more than kMaxRotation.
 int count_parts(const ToolWaypoint& from, const ToolWaypoint& to) {
@@ -19,11 +24,19 @@ int count_parts(const ToolWaypoint& from, const ToolWaypoint& to) {
     const double trace = from.links[i].linear().cwiseProduct(to.links[i].linear()).sum();
     least_cosine = std::min(least_cosine, 0.5 * (trace - 1.0));
   }
-  double angle = std::max(to.arcs[0].turn.norm(), to.arcs[1].turn.norm());
+  double angle = std::max(to.arcs[0].angle(), to.arcs[1].angle());
+  for (const ChainMotion& joints : to.joints) angle = std::max(angle, joints.angle());
   if (least_cosine < std::cos(kMaxRotation)) {
     angle = std::max(angle, std::acos(std::max(least_cosine, -1.0)));
   }
   return std::max(1, static_cast<int>(std::ceil(angle / kMaxRotation)));
+}
+
+/// Lets a waypoint come from the time `begin` of its leg, and not from the leg's start.
+void set_way(ToolWaypoint& waypoint, const ToolWaypoint& to, double begin, double time) {
+  waypoint.arcs = {to.arcs[0].part(begin, time), to.arcs[1].part(begin, time)};
+  waypoint.joints = to.joints;
+  for (ChainMotion& joints : waypoint.joints) joints = joints.part(begin, time);
 }
 
 /// The waypoint at `time` in [0, 1] of a leg. It comes from the one at the time `begin`.
@@ -31,9 +44,9 @@ ToolWaypoint interpolated(const ToolWaypoint& from, const ToolWaypoint& to, doub
                           double time) {
   ToolWaypoint waypoint{from.fraction + time * (to.fraction - from.fraction),
                         ShaftMotion{from.axis, to.axis, to.arcs}.at(time)};
-  waypoint.arcs = {to.arcs[0].part(begin, time), to.arcs[1].part(begin, time)};
+  set_way(waypoint, to, begin, time);
   for (std::size_t i = 0; i < to.links.size(); ++i) {
-    waypoint.links.push_back(RigidMotion(from.links[i], to.links[i]).at(time));
+    waypoint.links.push_back(RigidMotion(from.links[i], to.links[i], joints_to(to, i)).at(time));
   }
   return waypoint;
 }
@@ -95,8 +108,8 @@ double shaft_deviation(const ToolWaypoint* waypoints, std::size_t begin, std::si
 
 /// [m] An upper bound of the deviation of a link from the chord between two waypoints; kTooFar if
 /// it exceeds `allowed`. At each waypoint, it is the deviation of the ball. Between waypoints, the
-/// leg and the chord each leave a straight line by at most arm * angle^2 / 8. See
-/// doc/theory/geometry.md, Rims and chord deviation.
+/// leg and the chord each leave a straight line. See doc/theory/geometry.md, Rims and chord
+/// deviation.
 double link_deviation(const ToolWaypoint* waypoints, std::size_t begin, std::size_t end,
                       std::size_t link, const LinkBall& ball, double allowed) {
   const Isometry3d& first = waypoints[begin].links[link];
@@ -112,9 +125,12 @@ double link_deviation(const ToolWaypoint* waypoints, std::size_t begin, std::siz
     at_waypoints = std::max(at_waypoints, (pose * ball.center - on_chord * ball.center).norm() +
                                               ball.radius * rotation_chord(pose, on_chord));
     // An angle of at most pi is at most pi / 2 times its rotation_chord().
+    const ChainMotion joints = joints_to(waypoints[i], link);
     const double leg_angle = M_PI_2 * rotation_chord(waypoints[i - 1].links[link], pose);
     const double chord_angle = chord.angle() * (next_time - time);
-    between = std::max(between, arm * (leg_angle * leg_angle + chord_angle * chord_angle) / 8.0);
+    const double on_leg = joints.chain ? joints.bounds(ball.center, ball.radius).deviation
+                                       : arm * leg_angle * leg_angle / 8.0;
+    between = std::max(between, on_leg + arm * chord_angle * chord_angle / 8.0);
     time = next_time;
     if (at_waypoints + between > allowed) return kTooFar;
   }
@@ -149,7 +165,7 @@ const ToolPath& with_subdivided_rotations(const ToolPath& path, ToolPath& finer)
       begin = end;
     }
     finer.push_back(to);
-    finer.back().arcs = {to.arcs[0].part(begin, 1.0), to.arcs[1].part(begin, 1.0)};
+    set_way(finer.back(), to, begin, 1.0);
   }
   return finer;
 }

@@ -94,14 +94,16 @@ class Step {
   LegSpan link_span(std::size_t leg, std::size_t link, const LinkBall& ball) const;
 
   /// The motion of the shaft or of a link along the chord of a span. If the span has one leg, it
-  /// is the motion on this leg, so a shaft may move on arcs.
+  /// is the motion on this leg, as its joints have it.
   ShaftMotion shaft_motion(const LegSpan& span) const {
     ShaftMotion motion{from(span).axis, to(span).axis};
     if (waypoint_count_ > 1 && span.leg_count() == 1) motion.arcs = to(span).arcs;
     return motion;
   }
   RigidMotion link_motion(const LegSpan& span, std::size_t link) const {
-    return {from(span).links[link], to(span).links[link]};
+    const ToolWaypoint& end = to(span);
+    const bool on_joints = waypoint_count_ > 1 && span.leg_count() == 1 && !end.joints.empty();
+    return {from(span).links[link], end.links[link], on_joints ? end.joints[link] : ChainMotion{}};
   }
   /// The motion of the organ during a span.
   OrganMotion organ_motion(const LegSpan& span) const;

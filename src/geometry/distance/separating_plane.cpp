@@ -62,8 +62,7 @@ FixedPlane::FixedPlane(const Vector3d& normal, const CoreMotion& core) : normal_
 FixedPlane::FixedPlane(const Vector3d& normal, const ToolSurface& surface,
                        const RigidMotion& motion)
     : normal_(normal) {
-  const OrientedBox& box = surface.nodes().front().box;
-  const double deviation = motion.chord_deviation(box.center.norm() + box.half_size.norm());
+  const double deviation = motion.chord_deviation(surface.nodes().front().box);
   const auto support_value = [&](const Eigen::Isometry3d& pose) {
     return surface.project_onto(pose.linear().transpose() * normal).high +
            normal.dot(pose.translation());

@@ -19,11 +19,9 @@ class MovingTriangle {
         start_(placed(link.start(), in_link)),
         end_(rests_ ? start_ : placed(link.end(), in_link)),
         normal_(plane_normal(start_)) {
-    double arm = 0.0;
-    if (link.angle() > 0.0) {
-      for (const Vector3d& corner : in_link) arm = std::max(arm, link.arm(corner));
+    for (const Vector3d& corner : in_link) {
+      deviation_ = std::max(deviation_, link.chord_deviation(corner));
     }
-    deviation_ = link.chord_deviation(arm);
   }
 
   /// A time before which the face surely stays farther from the triangle than `reach` [m]; above 1
@@ -48,8 +46,8 @@ class MovingTriangle {
 
   bool rests_;
   Triangle start_, end_;
-  Vector3d normal_;   ///< unit normal at the start; zero if the triangle is degenerate
-  double deviation_;  ///< [m] the chord deviation
+  Vector3d normal_;         ///< unit normal at the start; zero if the triangle is degenerate
+  double deviation_ = 0.0;  ///< [m] the chord deviation
 };
 
 /// The time after which further touches of the face do not matter: that of its first touch so far.

@@ -9,15 +9,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// [m] An upper bound of the deviation of any point of the box from linear motion, as
-/// CoreMotion::chord_deviation().
-double chord_deviation(const OrientedBox& box, const RigidMotion& motion) {
-  if (motion.angle() == 0.0) return 0.0;
-  double arm = motion.arm(box.center);
-  for (int i = 0; i < 3; ++i) arm += box.half_size[i] * motion.arm(box.axes.col(i));
-  return motion.chord_deviation(arm);
-}
-
 Vector3d unit_or(const Vector3d& vector, const Vector3d& otherwise) {
   const Vector3d unit = vector.stableNormalized();
   return unit.isZero(0.0) ? otherwise : unit;
@@ -30,7 +21,7 @@ SweptBox::SweptBox(const OrientedBox& box, const RigidMotion& motion, double rad
       rests_(motion.rests()),
       start_(place(box, motion.start())),
       end_(rests_ ? start_ : place(box, motion.end())),
-      reach_(radius + chord_deviation(box, motion)) {}
+      reach_(radius + motion.chord_deviation(box)) {}
 
 SweptBox::Place SweptBox::place(const OrientedBox& box, const Eigen::Isometry3d& pose) const {
   Place place;

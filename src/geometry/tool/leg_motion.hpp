@@ -11,12 +11,15 @@ namespace organ_collision {
 /// be zero. Eigen's function would compile a singular value decomposition in each of its callers.
 Eigen::Quaterniond least_rotation(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
-/// One leg of a link's path, in the organ's frame [m]. The link's origin moves linearly. The link
-/// turns about a fixed direction at constant speed, by at most half a turn (slerp).
+/// One leg of a link's path, in the organ's frame [m]. The link moves as its chain of joints does.
+/// Without a chain, its origin moves linearly, and it turns about a fixed direction at constant
+/// speed, by at most half a turn (slerp).
 class RigidMotion {
  public:
-  /// `start`, `end`: T_organ_link at both ends of the leg.
-  RigidMotion(const Eigen::Isometry3d& start, const Eigen::Isometry3d& end);
+  /// `start`, `end`: T_organ_link at both ends of the leg. The rotations of `joints` are those of
+  /// `start` and `end`. What its places there differ is added in proportion to the time.
+  RigidMotion(const Eigen::Isometry3d& start, const Eigen::Isometry3d& end,
+              ChainMotion joints = {});
 
   const Eigen::Isometry3d& start() const { return start_; }
   const Eigen::Isometry3d& end() const { return end_; }
@@ -29,24 +32,35 @@ class RigidMotion {
   bool rests() const {
     return start_.linear() == end_.linear() && start_.translation() == end_.translation();
   }
-  /// [rad] The angle by which the link turns, in [0, pi].
+  /// [rad] The angle from start to end, in [0, pi].
   double angle() const { return angle_; }
-  /// The direction about which the link turns: unit, in the organ's frame.
+  /// The axis of the rotation from start to end: unit, in the organ's frame.
   Eigen::Vector3d axis() const { return start_.linear() * axis_; }
+
+  /// [m] Upper bounds, for the points of a ball around a point of the link, of how far they move,
+  /// and of how far they deviate from their chords. See doc/theory/geometry.md, Rims and chord
+  /// deviation.
+  double farthest_move(const Eigen::Vector3d& p_link, double radius) const;
+  double chord_deviation(const Eigen::Vector3d& p_link, double radius = 0.0) const;
+  /// [m] The same for the points of a box in the link's frame.
+  double chord_deviation(const OrientedBox& box) const;
+  /// [1] An upper bound of the share of a chord deviation that is along `normal` (unit).
+  double share_along(const Eigen::Vector3d& normal) const {
+    return joints_.chain ? 1.0 : axis().cross(normal).norm();
+  }
+
+ private:
   /// [m] The distance of a point, given in the link's frame, from the axis of the rotation. This
   /// axis passes through the link's origin.
   double arm(const Eigen::Vector3d& p_link) const { return axis_.cross(p_link).norm(); }
-  /// [m] An upper bound of how far a point with this arm [m] deviates from its chord: an eighth of
-  /// its acceleration, arm * angle^2. See doc/theory/geometry.md, Rims and chord deviation.
-  double chord_deviation(double arm) const { return arm * angle_ * angle_ / 8.0; }
-  /// [m] How far the link's origin moves.
-  double origin_displacement() const { return (end_.translation() - start_.translation()).norm(); }
 
- private:
   Eigen::Isometry3d start_, end_;
   Eigen::Vector3d axis_ = Eigen::Vector3d::UnitZ();  ///< of the rotation: unit, in the link's frame
   double angle_ = 0.0;
   Eigen::Matrix3d mid_orientation_;
+  ChainMotion joints_;
+  Eigen::Vector3d off_start_ = Eigen::Vector3d::Zero();  ///< [m] from the chain's place to start_
+  Eigen::Vector3d off_end_ = Eigen::Vector3d::Zero();
 };
 
 /// One leg of the path of a part's core, in the organ's frame [m]. If the core is the axis of a
@@ -85,7 +99,7 @@ class CoreMotion {
   ShaftArcs arcs_;  ///< how the ends of a shaft's axis move
   ConvexCore in_link_;
   const RigidMotion* link_ = nullptr;
-  double arm_ = 0.0;        ///< [m] upper bound of RigidMotion::arm() for the points of the core
+  double move_ = 0.0;       ///< [m] farthest_move() of the core of a link
   double deviation_ = 0.0;  ///< [m] chord_deviation() of the whole leg
 };
 

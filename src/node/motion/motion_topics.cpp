@@ -1,12 +1,16 @@
 #include "motion_topics.hpp"
 
+#include <ros/master.h>
+#include <ros/this_node.h>
 #include <tf2_eigen/tf2_eigen.h>
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "common/messages/checked_messages.hpp"
 #include "common/messages/text.hpp"
+#include "common/threads/queues.hpp"
 #include "geometry/concatenate.hpp"
 #include "geometry/plausible_size.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
@@ -20,6 +24,22 @@ using geometry_msgs::TransformStamped;
 /// [messages] If more messages wait, the oldest are dropped. The tool is then swept on a straight
 /// way between the poses that are left.
 constexpr std::uint32_t kTransformQueue = 1000;
+/// Between two looks at the types of silent topics.
+const ros::WallDuration kLookPeriod(1.0);
+const std::string kPoseType = ros::message_traits::datatype<PoseStamped>();
+
+/// The types of all topics that are published, from the ROS master; empty if it does not answer.
+std::map<std::string, std::string> types_of_topics() {
+  XmlRpc::XmlRpcValue arguments, response, topics;
+  arguments[0] = ros::this_node::getName();
+  arguments[1] = "";
+  std::map<std::string, std::string> types;
+  if (!ros::master::execute("getPublishedTopics", arguments, response, topics, false)) return types;
+  for (int i = 0; i < topics.size(); ++i) {
+    types[static_cast<std::string&>(topics[i][0])] = static_cast<std::string&>(topics[i][1]);
+  }
+  return types;
+}
 
 /// Everything in a transform that tf2 may have refused, because tf2 does not say what is wrong.
 std::string contents(const TransformStamped& transform) {
@@ -75,46 +95,95 @@ void MotionTopics::subscribe(const ros::NodeHandle& node) {
 }
 
 void MotionTopics::subscribe(Stream& stream, ros::NodeHandle node) {
-  const auto subscribe_to = [&](const std::string& topic, auto take) {
+  const auto subscribe_to = [&](const std::string& topic, auto take, auto early) {
     if (topic.empty()) return ros::Subscriber();
     try {
       return node.subscribe<PoseStamped>(
           topic, kTransformQueue,
-          [this, take, &stream](const geometry_msgs::PoseStampedConstPtr& pose) {
-            (this->*take)(stream.index, *pose);
+          [this, take, early, &stream](const geometry_msgs::PoseStampedConstPtr& pose) {
+            if (!stream.index) {
+              stream.*early = pose;
+            } else {
+              (this->*take)(*stream.index, *pose);
+            }
           },
           {}, ros::TransportHints().tcpNoDelay());
     } catch (const ros::Exception& error) {  // For example, this process uses it with another type.
       throw std::runtime_error("cannot subscribe to '" + topic + "': " + error.what());
     }
   };
-  stream.tips = subscribe_to(stream.tool.tip_pose_topic, &MotionTopics::take_tip);
-  stream.bases = subscribe_to(stream.tool.base_pose_topic, &MotionTopics::take_base);
+  stream.tips =
+      subscribe_to(stream.tool.tip_pose_topic, &MotionTopics::take_tip, &Stream::early_tip);
+  stream.bases =
+      subscribe_to(stream.tool.base_pose_topic, &MotionTopics::take_base, &Stream::early_base);
 }
 
-void MotionTopics::change_tools(const std::vector<ToolParameters>& tools,
-                                const ros::NodeHandle& node) {
-  std::vector<std::shared_ptr<Stream>> streams;
-  for (const ToolParameters& tool : tools) {
+void MotionTopics::watch_types(const ros::NodeHandle& node, ros::CallbackQueue& asking) {
+  ros::CallbackQueueInterface* const own = node.getCallbackQueue();
+  look_ = node.createWallTimer(kLookPeriod, [this, own, &asking](const ros::WallTimerEvent&) {
+    const bool is_silent = std::any_of(streams_.begin(), streams_.end(), [](const auto& stream) {
+      return (stream->tips && stream->latest.isZero()) || (stream->bases && !stream->base);
+    });
+    if (!is_silent || is_asking_->exchange(true)) return;
+    call_later(asking, [this, own, is_asking = is_asking_] {
+      const auto types = types_of_topics();
+      *is_asking = false;
+      call_later(*own, [this, types] { take_types(types); });
+    });
+  });
+}
+
+void MotionTopics::take_types(const std::map<std::string, std::string>& types) {
+  for (const auto& stream : streams_) {
+    for (const bool is_base : {false, true}) {
+      const ros::Subscriber& topic = is_base ? stream->bases : stream->tips;
+      const auto type = types.find(topic ? topic.getTopic() : "");
+      const bool is_silent = is_base ? !stream->base : stream->latest.isZero();
+      if (type == types.end() || !is_silent || type->second == kPoseType) continue;
+      const std::string wrong = concatenate("is of the type ", type->second, "; must be ",
+                                            kPoseType, ": see pose_adapter");
+      if (!is_base) transforms_.set_refusal(stream->tool.tip_frame, wrong);
+      reject("pose", is_base ? stream->frame : stream->tool.tip_frame,
+             " on " + type->first + " " + wrong);
+    }
+  }
+}
+
+MotionTopics::Streams MotionTopics::subscribe_for(const std::vector<Tool>& tools,
+                                                  const ros::NodeHandle& node) {
+  Streams streams;
+  for (const Tool& tool : tools) {
     // Names of tools are unique, so no two of the new tools get the same stream.
+    const ToolParameters& wanted = tool.parameters;
     const auto known = std::find_if(streams_.begin(), streams_.end(), [&](const auto& stream) {
       const ToolParameters& old = stream->tool;
-      return old.name == tool.name && old.tip_frame == tool.tip_frame &&
-             old.tip_pose_topic == tool.tip_pose_topic &&
-             old.base_pose_topic == tool.base_pose_topic;
+      return old.name == wanted.name && old.tip_frame == wanted.tip_frame &&
+             old.tip_pose_topic == wanted.tip_pose_topic &&
+             old.base_pose_topic == wanted.base_pose_topic;
     });
     if (known != streams_.end()) {
       streams.push_back(*known);
     } else {
-      streams.push_back(std::make_shared<Stream>(Stream{0, tool}));
+      streams.push_back(std::make_shared<Stream>(Stream{std::nullopt, wanted}));
       subscribe(*streams.back(), node);
     }
   }
+  return streams;
+}
+
+void MotionTopics::change_tools(Streams& streams, const std::vector<Tool>& tools) {
+  for (const auto& stream : streams_) stream->index.reset();
+  streams_.swap(streams);
   for (std::size_t tool = 0; tool < tools.size(); ++tool) {
-    streams[tool]->index = tool;
-    streams[tool]->tool = tools[tool];
+    streams_[tool]->index = tool;
+    streams_[tool]->tool = tools[tool].parameters;
   }
-  streams_ = std::move(streams);
+  for (std::size_t tool = 0; tool < tools.size(); ++tool) {
+    if (const auto tip = std::exchange(streams_[tool]->early_tip, nullptr)) take_tip(tool, *tip);
+    if (const auto base = std::exchange(streams_[tool]->early_base, nullptr)) {
+      take_base(tool, *base);
+    }
+  }
 }
 
 void MotionTopics::take_transforms(const tf2_msgs::TFMessage& message, const std::string& authority,
@@ -214,7 +283,8 @@ std::string MotionTopics::fault_of(const PoseStamped& pose, const std::string& f
     return concatenate("is at (", p.x, ", ", p.y, ", ", p.z, "); must be finite and within ",
                        tolerance::kFarthest, " m");
   }
-  const std::string ahead = ahead_fault(pose.header.stamp, ros::Time::now(), max_ahead_sec_);
+  const ros::Time now = ros::Time::now(), stamp = pose.header.stamp;
+  const std::string ahead = ahead_fault(stamp.isZero() ? now : stamp, now, max_ahead_sec_);
   if (!ahead.empty()) return "is refused: " + ahead;
   if (is_unit(q)) return "";
   return concatenate("has the orientation (", q.x, ", ", q.y, ", ", q.z, ", ", q.w,

@@ -6,6 +6,7 @@
 
 #include "organ_collision/geometry/tool/link.hpp"
 #include "organ_collision/geometry/tool/tool_path.hpp"
+#include "transform_buffer.hpp"
 
 namespace organ_collision {
 
@@ -13,32 +14,25 @@ namespace organ_collision {
 struct SampledPath {
   ToolPath path = {};
   std::size_t samples_cut = 0;
-  /// [m] The largest distance of a dropped pose from the path, of those that were read.
+  /// [m] An upper bound of the distance of a dropped pose from the path, of those that were read.
   double deviation_cut = 0.0;
   /// Which part of the motion is not known or was left out; empty: none, except for 1e-6 m.
   std::string unknown = {};
 };
 
-/// Builds a path from samples of a tool's motion. Each leg, from one waypoint to the next, costs
-/// time in a query, so redundant samples are dropped: TF interpolates between transforms, so that
-/// many samples lie on the straight motion between their neighbours. What is dropped changes the
-/// path by at most 1e-9 m at the ends of the axis and by at most 1e-6 m at all points of the links.
-/// A link moves straight if it moves as a RigidMotion, and an end of the axis if it moves linearly
-/// or, with a body that carries it (ToolPose::carriers), on one arc. Chains of joints do so only
-/// roughly.
+/// Builds a path from samples of a tool's motion. Between two samples, the tool moves as its joints
+/// do. Each leg, from one waypoint to the next, costs time in a query, so redundant samples are
+/// dropped, and joints that make no difference. This changes the path by at most 1e-9 m at the ends
+/// of the axis and by at most 1e-6 m at all points of the links.
 class PathBuilder {
  public:
-  /// The path starts at fraction 0 with the pose `begin`.
-  PathBuilder(const std::vector<Link>& links, const ToolPose& begin);
+  /// The path starts at fraction 0 with the pose `begin`. `frames`: the joints of swept_frames();
+  /// empty: they are not known.
+  PathBuilder(const std::vector<Link>& links, const ToolPose& begin,
+              std::vector<FrameJoints> frames = {});
 
   /// Adds a sample. `fraction`: rises from call to call, up to 1.
-  void add(double fraction, const ToolPose& pose);
-
-  /// Whether the tool moves so far between two poses that what it does in between may matter: a
-  /// curve with a radius of 1 cm or more may deviate by more than 1e-6 m from its chord.
-  bool is_far(const ToolPose& from, const ToolPose& to) const;
-  /// Whether the pose half way between two poses is more than 1e-6 m from the straight motion.
-  bool is_bent(const ToolPose& from, const ToolPose& half_way, const ToolPose& to) const;
+  void add(double fraction, const ToolPose& pose, std::vector<FrameJoints> frames = {});
 
   /// The path through all samples. Its first and last waypoints are as given, except that a trocar
   /// that moved by at most 1e-9 m is at rest. If there are more than `legs_max` legs (at least 1),
@@ -50,6 +44,7 @@ class PathBuilder {
   struct Sample {
     double fraction;
     ToolPose pose;
+    std::vector<FrameJoints> frames;
   };
 
  private:

@@ -17,12 +17,6 @@ namespace {
 /// to a second.
 constexpr std::size_t kMostRead = 1000;
 
-/// [m] A shorter arm makes no arc that matters.
-constexpr double kNoArm = 1e-12;
-
-/// [ns] Poses that are nearer in time have none in between that is looked up.
-constexpr std::int64_t kShortest = 2000;
-
 /// The frames of the shaft and the links. `with_tip`: and of the tip of the links, if they have
 /// one.
 TransformBuffer::Frames frames_of(const Tool& tool, bool with_tip) {
@@ -49,24 +43,34 @@ bool is_near(const ToolPose& pose) {
                      [](const auto& link) { return is_in_range(link.translation()); });
 }
 
+bool are_on_joints_of(const std::vector<FrameJoints>& joints,
+                      const std::vector<FrameJoints>& others) {
+  return std::equal(joints.begin(), joints.end(), others.begin(), others.end(),
+                    [](const auto& a, const auto& b) { return a.is_on_joints_of(b); });
+}
+
+/// Whether a joint turns by so nearly half a turn, or exactly half a turn, that rounding decides in
+/// which direction. TF's own pose half way tells the direction.
+bool turn_by_half(const std::vector<FrameJoints>& from, const std::vector<FrameJoints>& to) {
+  constexpr double kLeastTrace = -0.98;  // Of a rotation by 3 rad.
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    for (std::size_t k = 0; k < to[i].poses.size(); ++k) {
+      const auto &a = from[i].poses[k].linear(), &b = to[i].poses[k].linear();
+      if (a.cwiseProduct(b).sum() < kLeastTrace) return true;
+    }
+  }
+  return false;
+}
+
+ros::Time half_way(ros::Time from, ros::Time to) {
+  ros::Time time;
+  return time.fromNSec(from.toNSec() + (to.toNSec() - from.toNSec()) / 2);
+}
+
 /// How many samples, one each `spacing_sec`, lie strictly between two times that are `gap_sec`
 /// apart.
 double samples_between(double gap_sec, double spacing_sec) {
   return std::max(0.0, std::ceil(gap_sec / spacing_sec - 1e-6) - 1.0);
-}
-
-/// What carries the point `end` of a frame. TF moves the origin of a frame linearly between two
-/// transforms, and a frame that is fixed to another one moves with that one.
-EndCarrier carrier_of(const TransformBuffer& buffer, const std::string& frame,
-                      const Eigen::Isometry3d& T_organ_frame, const Eigen::Vector3d& end) {
-  const std::string name = buffer.carrier(frame);
-  if (name.empty()) return {};
-  const auto in_carrier = look_up(buffer, name, frame, ros::Time(0));
-  if (!in_carrier.found) return {};
-  const Eigen::Isometry3d T_organ_carrier = T_organ_frame * in_carrier.found->value.inverse();
-  const Eigen::Vector3d arm = end - T_organ_carrier.translation();
-  if (arm.isZero(kNoArm)) return {};
-  return {Eigen::Quaterniond(T_organ_carrier.linear()).normalized(), arm};
 }
 
 }  // namespace
@@ -90,9 +94,10 @@ void ToolPoses::set_answered(const Tool& tool, const std::string& organ_frame, r
 /// The stamps of the received transforms and, where these are further apart than sample_sec, evenly
 /// spaced times between them. Notes in `lost` how many times samples_max has left out, and what is
 /// not known of the motion.
-std::vector<ros::Time> ToolPoses::sample_times(const Tool& tool, const std::string& organ_frame,
-                                               ros::Time from, ros::Time to,
-                                               SampledPath& lost) const {
+std::vector<ToolPoses::SampleTime> ToolPoses::sample_times(const Tool& tool,
+                                                           const std::string& organ_frame,
+                                                           ros::Time from, ros::Time to,
+                                                           SampledPath& lost) const {
   auto [stamps, forgotten] = buffer_.stamps_between(organ_frame, swept_frames(tool), from, to);
   if (forgotten > from) {
     lost.unknown = concatenate("the tool's way from ", from, " s to ", std::min(forgotten, to),
@@ -102,27 +107,27 @@ std::vector<ros::Time> ToolPoses::sample_times(const Tool& tool, const std::stri
   const std::size_t heard = stamps.size();
   const std::size_t most = most_read();
   if (heard > most) {
-    for (std::size_t i = 0; i < most; ++i) stamps[i] = stamps[i * heard / most];
-    stamps.resize(most);
     lost.samples_cut = heard - most;
     if (lost.unknown.empty()) {
       lost.unknown = concatenate("of the tool's ", heard, " poses in this step, ", most,
                                  " were read; steps must be shorter");
     }
-    return stamps;
+    std::vector<SampleTime> times;
+    for (std::size_t i = 0; i < most; ++i) times.push_back({stamps[i * heard / most], true});
+    return times;
   }
   stamps.push_back(to);
   const double spacing =
       std::max(sampling_.sample_sec, seconds_between(from, to) / sampling_.samples_max);
-  std::vector<ros::Time> times;
+  std::vector<SampleTime> times;
   double wanted = 0.0, sampled = 0.0;
   for (const ros::Time stamp : stamps) {
     const double gap = seconds_between(from, stamp);
     const auto count = static_cast<std::int64_t>(samples_between(gap, spacing));
     const auto step = static_cast<std::uint64_t>(nanoseconds_between(from, stamp) / (count + 1));
     std::uint64_t time = from.toNSec();
-    for (std::int64_t i = 0; i < count; ++i) times.emplace_back().fromNSec(time += step);
-    times.push_back(stamp);
+    for (std::int64_t i = 0; i < count; ++i) times.emplace_back().time.fromNSec(time += step);
+    times.push_back({stamp, true});
     wanted += samples_between(gap, sampling_.sample_sec);
     sampled += static_cast<double>(count);
     from = stamp;
@@ -169,10 +174,6 @@ Lookup<ToolPose> ToolPoses::pose(const Tool& tool, const std::string& organ_fram
   if (parameters.has_shaft()) {
     const Eigen::Isometry3d &trocar = *next++, &tip = *next++;
     pose.axis = {trocar * parameters.trocar_offset, tip * parameters.tip_offset};
-    if (use != PoseUse::kVelocity) {
-      pose.carriers = {carrier_of(buffer_, parameters.trocar_frame, trocar, pose.axis.trocar),
-                       carrier_of(buffer_, parameters.tip_frame, tip, pose.axis.tip)};
-    }
   }
   const auto end = next + static_cast<std::ptrdiff_t>(tool.links.size());
   pose.links.assign(next, end);
@@ -180,14 +181,21 @@ Lookup<ToolPose> ToolPoses::pose(const Tool& tool, const std::string& organ_fram
   return {{{std::move(pose), earliest}}, ""};
 }
 
-ToolPose ToolPoses::pose_before(const Tool& tool, const std::string& organ_frame,
-                                const Timed<ToolPose>& end, ros::Time now) const {
-  const bool moves = end.stamp.toSec() > kVelocitySec &&
-                     buffer_.goes_on(organ_frame, swept_frames(tool), end.stamp, now);
-  if (!moves) return end.value;
-  auto before =
-      pose(tool, organ_frame, end.stamp - ros::Duration(kVelocitySec), PoseUse::kVelocity);
-  return before.found ? std::move(before.found->value) : end.value;
+ros::Time ToolPoses::velocity_begin(ros::Time history_begin, ros::Time end) {
+  constexpr auto kSpan = static_cast<std::uint64_t>(1e9 * kVelocitySec);
+  const std::uint64_t time = end.toNSec();
+  return std::max(history_begin, ros::Time().fromNSec(time - std::min(kSpan, time)));
+}
+
+std::optional<ToolPose> ToolPoses::pose_before(const Tool& tool, const std::string& organ_frame,
+                                               ros::Time begin, ros::Time end,
+                                               ros::Time now) const {
+  const bool moves =
+      !begin.isZero() && begin < end && buffer_.goes_on(organ_frame, swept_frames(tool), end, now);
+  if (!moves) return std::nullopt;
+  auto before = pose(tool, organ_frame, begin, PoseUse::kSample);
+  if (!before.found) return std::nullopt;
+  return std::move(before.found->value);
 }
 
 bool ToolPoses::is_nearly_forgotten(const Tool& tool, const std::string& organ_frame,
@@ -231,45 +239,60 @@ std::string ToolPoses::why_not(const Tool& tool, const std::string& organ_frame,
 SampledPath ToolPoses::path(const Tool& tool, const std::string& organ_frame,
                             const Timed<ToolPose>& from, const Timed<ToolPose>& to) const {
   const auto duration = static_cast<double>(nanoseconds_between(from.stamp, to.stamp));
-  PathBuilder path(tool.links, from.value);
-  SampledPath sampled;
-  std::size_t more = most_read();
-  Timed<ToolPose> last = from;
-  // Adds a sample, and before it as many others as are needed to follow a bent motion.
-  const auto add = [&](const Timed<ToolPose>& sample) {
-    std::vector<Timed<ToolPose>> ahead = {sample};
-    while (!ahead.empty()) {
-      const Timed<ToolPose>& next = ahead.back();
-      const std::int64_t gap = nanoseconds_between(last.stamp, next.stamp);
-      if (more > 0 && gap > kShortest && path.is_far(last.value, next.value)) {
-        ros::Time half_way;
-        half_way.fromNSec(last.stamp.toNSec() + static_cast<std::uint64_t>(gap / 2));
-        auto between = pose(tool, organ_frame, half_way, PoseUse::kSample);
-        if (between.found && is_near(between.found->value) &&
-            path.is_bent(last.value, between.found->value, next.value)) {
-          --more;
-          ahead.push_back(*std::move(between.found));
-          continue;
-        }
-      }
-      const auto passed = static_cast<double>(nanoseconds_between(from.stamp, next.stamp));
-      path.add(next.stamp == to.stamp ? 1.0 : passed / duration, next.value);
-      last = std::move(ahead.back());
-      ahead.pop_back();
+  const TransformBuffer::Frames frames = swept_frames(tool);
+  const auto joints_at = [&](ros::Time time) {
+    std::vector<FrameJoints> joints;
+    for (const std::string& frame : frames) {
+      joints.push_back(buffer_.joints(organ_frame, frame, time));
     }
+    return joints;
   };
-  for (const ros::Time time : sample_times(tool, organ_frame, from.stamp, to.stamp, sampled)) {
+  std::vector<FrameJoints> last = joints_at(from.stamp);
+  ros::Time last_time = from.stamp;
+  PathBuilder path(tool.links, from.value, last);
+  SampledPath sampled;
+  const auto pose_at = [&](ros::Time time) {
+    auto found = pose(tool, organ_frame, time, PoseUse::kSample);
     // A sample that is too far away to be evaluated must not make the whole step fail.
-    const auto between = pose(tool, organ_frame, time, PoseUse::kSample);
-    if (between.found && is_near(between.found->value)) {
-      add({between.found->value, time});
-    } else if (sampled.unknown.empty()) {
-      sampled.unknown =
-          concatenate("the tool's pose at ", time, " s is not known: ",
-                      between.found ? "it is too far away to be evaluated" : between.why_not);
+    if (found.found && is_near(found.found->value)) return std::move(found.found);
+    if (sampled.unknown.empty()) {
+      sampled.unknown = concatenate(
+          "the tool's pose at ", time,
+          " s is not known: ", found.found ? "it is too far away to be evaluated" : found.why_not);
+    }
+    return std::optional<Timed<ToolPose>>();
+  };
+  const auto add = [&](ros::Time time, const ToolPose& pose, std::vector<FrameJoints> joints) {
+    const auto passed = static_cast<double>(nanoseconds_between(from.stamp, time));
+    path.add(time == to.stamp ? 1.0 : passed / duration, pose, std::move(joints));
+  };
+  std::vector<ros::Time> between;
+  const auto add_heard = [&](ros::Time time, const ToolPose& pose) {
+    std::vector<FrameJoints> joints = joints_at(time);
+    if (!are_on_joints_of(joints, last)) {
+      // What TF does in between is not known, for example because a frame got another parent.
+    } else if (turn_by_half(last, joints)) {
+      between = {half_way(last_time, time)};
+    } else {
+      between.clear();
+    }
+    for (const ros::Time sample : between) {
+      if (const auto found = pose_at(sample)) add(sample, found->value, joints_at(sample));
+    }
+    between.clear();
+    last = joints;
+    last_time = time;
+    add(time, pose, std::move(joints));
+  };
+  for (const auto& [time, is_heard] :
+       sample_times(tool, organ_frame, from.stamp, to.stamp, sampled)) {
+    if (!is_heard) {
+      between.push_back(time);
+    } else if (const auto found = pose_at(time)) {
+      add_heard(time, found->value);
     }
   }
-  add(to);
+  add_heard(to.stamp, to.value);
   SampledPath built = path.take(static_cast<std::size_t>(sampling_.samples_max));
   sampled.path = std::move(built.path);
   sampled.samples_cut += built.samples_cut;

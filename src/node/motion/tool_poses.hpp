@@ -28,30 +28,32 @@ class ToolPoses {
       : buffer_(buffer), sampling_(sampling) {}
 
   /// What a pose is for. The tip of links is looked up for the end of a step only, because it is
-  /// not swept. What carries the ends of a shaft is not looked up for a velocity.
-  enum class PoseUse { kStepEnd, kSample, kVelocity };
+  /// not swept.
+  enum class PoseUse { kStepEnd, kSample };
   /// The pose of a tool at a time. Time zero means the latest time at which all frames of the tool
   /// are known.
   Lookup<ToolPose> pose(const Tool& tool, const std::string& organ_frame, ros::Time time,
                         PoseUse use = PoseUse::kStepEnd) const;
 
-  /// The pose from which the tool has come within kVelocitySec with a constant velocity, which it
-  /// has at its pose `end`. It is `end` if the tool rests: no earlier pose is known, or newer
-  /// transforms are overdue (TransformBuffer::goes_on()).
-  ToolPose pose_before(const Tool& tool, const std::string& organ_frame, const Timed<ToolPose>& end,
-                       ros::Time now) const;
+  /// Since when the motion of a tool counts for its velocity at the end of a step: for
+  /// kVelocitySec, but not before its history begins.
+  static ros::Time velocity_begin(ros::Time history_begin, ros::Time end);
+  /// The pose at `begin`, from which the tool has come with the velocity that it has at `end`.
+  /// Empty if the tool rests: this pose is not known, or newer transforms are overdue
+  /// (TransformBuffer::goes_on()).
+  std::optional<ToolPose> pose_before(const Tool& tool, const std::string& organ_frame,
+                                      ros::Time begin, ros::Time end, ros::Time now) const;
 
   /// Whether TF has all frames of the tool at a time. Costs a thirtieth of a pose() that is not
   /// found, because no error is put into words.
   bool has_pose(const Tool& tool, const std::string& organ_frame, ros::Time time) const;
 
   /// The path from one known pose to another. It is sampled at each stamp that TF received between
-  /// the two poses and, where stamps are further apart than sample_sec, also between them. Where
-  /// the motion is bent, it is sampled more densely, until the poses half way between samples are
-  /// within 1e-6 m of the path. Samples that TF cannot give are dropped. PathBuilder drops
-  /// redundant samples, and reduces the others to samples_max. At most max(1000, samples_max) of
-  /// the stamps are read, evenly spread. If there are more stamps, or if TF has forgotten some, a
-  /// part of the path is unknown.
+  /// the two poses. Between these stamps, the tool moves as its joints do, which is exactly what TF
+  /// interpolates. Where a frame has got another parent, the path is sampled each sample_sec.
+  /// Samples that TF cannot give are dropped. PathBuilder drops redundant samples, and reduces the
+  /// others to samples_max. At most max(1000, samples_max) of the stamps are read, evenly spread.
+  /// If there are more stamps, or if TF has forgotten some, a part of the path is unknown.
   SampledPath path(const Tool& tool, const std::string& organ_frame, const Timed<ToolPose>& from,
                    const Timed<ToolPose>& to) const;
 
@@ -71,14 +73,18 @@ class ToolPoses {
   void set_answered(const Tool& tool, const std::string& organ_frame, ros::Time time);
 
  private:
-  /// The most stamps that are read for a step, and the most poses that are added between them.
+  /// The most stamps that are read for a step.
   std::size_t most_read() const;
   /// Why a tool's pose is not known, if `lookup` of its frame number `missing` found nothing. If no
   /// message ever came on the tool's pose topic, or the last one was refused, this is the reason.
   std::string why_not(const Tool& tool, const std::string& organ_frame, std::size_t missing,
                       const Lookup<Eigen::Isometry3d>& lookup) const;
-  std::vector<ros::Time> sample_times(const Tool& tool, const std::string& organ_frame,
-                                      ros::Time from, ros::Time to, SampledPath& lost) const;
+  struct SampleTime {
+    ros::Time time;
+    bool is_heard = false;  ///< a transform has this stamp
+  };
+  std::vector<SampleTime> sample_times(const Tool& tool, const std::string& organ_frame,
+                                       ros::Time from, ros::Time to, SampledPath& lost) const;
 
   TransformBuffer& buffer_;
   PathSampling sampling_;

@@ -57,8 +57,9 @@ NotFound not_found(const tf2::BufferCore& buffer, const std::string& target,
   if (dynamic_cast<const tf2::ConnectivityException*>(&error) != nullptr) {
     return {std::nullopt, "frame '" + source + "' is not connected to '" + target + "' on TF"};
   }
-  if (dynamic_cast<const tf2::ExtrapolationException*>(&error) != nullptr &&
-      buffer.canTransform(target, source, ros::Time(0))) {
+  // tf2 cannot say that it would have to extrapolate by more than 2^31 s, so that the type of the
+  // error does not count.
+  if (buffer.canTransform(target, source, ros::Time(0))) {
     const ros::Time newest = buffer.lookupTransform(target, source, ros::Time(0)).header.stamp;
     if (!newest.isZero() && newest < time) return late(target, source, newest, time);
   }
@@ -193,6 +194,58 @@ std::string TransformBuffer::carrier(const std::string& frame) const {
   return "";
 }
 
+FrameJoints TransformBuffer::joints(const std::string& target, const std::string& frame,
+                                    ros::Time time) const {
+  Nodes above_target = upward_at(target, time), above_frame = upward_at(frame, time);
+  std::string common = target;
+  while (!above_target.empty() && !above_frame.empty() &&
+         above_target.back() == above_frame.back()) {
+    common = above_frame.back()->name;
+    above_target.pop_back();
+    above_frame.pop_back();
+  }
+  FrameJoints joints;
+  std::string last = target;
+  const auto go_to = [&](const std::string& next) {
+    if (last == next) return;
+    const auto pose = look_up(*this, last, next, time);
+    if (!pose.found) throw std::runtime_error(pose.why_not);
+    joints.poses.push_back(pose.found->value);
+    last = next;
+  };
+  const auto moves = [](const Frame* above) { return !above->heard.isZero(); };
+  // The inverse of a joint turns first, and then its origin moves linearly.
+  const auto turn_first = [&] {
+    Eigen::Isometry3d& inverse = joints.poses.back();
+    const Eigen::Vector3d origin = inverse.linear().transpose() * inverse.translation();
+    inverse.translation().setZero();
+    joints.poses.emplace_back(Eigen::Translation3d(origin));
+  };
+  try {
+    for (const Frame* const above : above_target) {
+      if (!moves(above)) continue;
+      // Up to the frame that moves, all is static. From there to the next one, its joint moves.
+      go_to(above->name);
+      joints.way.push_back(above);
+      const auto next = std::find_if(std::find(above_target.begin(), above_target.end(), above) + 1,
+                                     above_target.end(), moves);
+      go_to(next == above_target.end() ? common : (*next)->name);
+      turn_first();
+    }
+    go_to(common);
+    joints.way.push_back(nullptr);
+    for (auto above = above_frame.rbegin(); above != above_frame.rend(); ++above) {
+      if (!moves(*above)) continue;
+      go_to((*above)->name);
+      joints.way.push_back(*above);
+    }
+    go_to(frame);
+  } catch (const std::runtime_error&) {
+    return {};
+  }
+  return joints;
+}
+
 TransformBuffer::Stamps TransformBuffer::stamps_between(const std::string& target,
                                                         const Frames& sources, ros::Time from,
                                                         ros::Time to) const {
@@ -266,6 +319,19 @@ TransformBuffer::Nodes TransformBuffer::upward(const std::string& frame, std::si
     const Nodes& parents = found[i]->parents;
     const std::size_t first = parents.size() - std::min(most, parents.size());
     for (std::size_t k = first; k < parents.size(); ++k) insert(found, parents[k]);
+  }
+  return found;
+}
+
+/// The frame and all its ancestors at a time.
+TransformBuffer::Nodes TransformBuffer::upward_at(const std::string& frame, ros::Time time) const {
+  Nodes found;
+  for (const Frame* above = find(frame); above && !contains(found, above);) {
+    found.push_back(above);
+    const Nodes& parents = above->parents;
+    std::string parent = parents.empty() ? "" : parents.back()->name;
+    if (parents.size() > 1 && !_getParent(above->name, time, parent)) break;
+    above = find(parent);
   }
   return found;
 }

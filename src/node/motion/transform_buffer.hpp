@@ -19,6 +19,16 @@ namespace organ_collision {
 /// transforms, so that for frames that come more rarely, the last two transforms count.
 inline constexpr double kVelocitySec = 0.01;
 
+/// The transforms between a target frame and another frame at one time. TF interpolates each of
+/// them: its origin moves linearly, and it turns by slerp. Their product is T_target_frame.
+struct FrameJoints {
+  /// What tells whether the transforms are those between the same frames; empty: not known.
+  std::vector<const void*> way = {};
+  std::vector<Eigen::Isometry3d> poses = {};
+
+  bool is_on_joints_of(const FrameJoints& other) const { return !way.empty() && way == other.way; }
+};
+
 /// The name of a frame, and when the last transform to its parent came, by the node's own clock.
 struct LastTransform {
   std::string frame;
@@ -59,6 +69,8 @@ class TransformBuffer : public tf2::BufferCore {
   /// The frame that carries `frame`: itself, or the nearest frame above it that is not on static
   /// transforms alone. Empty if there is none: then `frame` rests.
   std::string carrier(const std::string& frame) const;
+  /// The joints between two frames at a time at which their transform is known.
+  FrameJoints joints(const std::string& target, const std::string& frame, ros::Time time) const;
   /// Notes why the last pose of a frame was refused; empty: it was taken.
   void set_refusal(const std::string& frame, const std::string& why) { refusals_[frame] = why; }
   /// Why the last pose of a frame was refused; empty if it was taken, or if none came.
@@ -115,6 +127,7 @@ class TransformBuffer : public tf2::BufferCore {
   void note(Frame& frame, ros::Time stamp);
   Nodes chain(const std::string& target, const Frames& sources) const;
   Nodes upward(const std::string& frame, std::size_t most) const;
+  Nodes upward_at(const std::string& frame, ros::Time time) const;
 
   std::map<std::string, Frame> frames_;          ///< by name; the addresses of frames do not change
   std::map<std::string, std::string> refusals_;  ///< why the last pose was refused, by frame

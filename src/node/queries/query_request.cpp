@@ -211,6 +211,7 @@ void QueryQuestion::find_motion(const NodeState& node, std::size_t tool_index) {
   const bool has_last = pair != history.end() && pair->second.last &&
                         !poses.is_disproved(*tool, frame, pair->second.last->stamp);
   std::optional<Timed<ToolPose>> from;
+  ros::Time begin = end;
   if (has_last && !is_static_mode(asked.mode)) {
     const LastStep& last = *pair->second.last;
     // If all transforms are static, the query's step ends now. The node may have ended its last
@@ -222,9 +223,10 @@ void QueryQuestion::find_motion(const NodeState& node, std::size_t tool_index) {
     }
     start = last.stamp;
     from = {last.pose, last.stamp};
+    begin = start < end ? start : ToolPoses::velocity_begin(last.begin, end);
     if (!organ_rests) before = has_same_faces(last, *shape.mesh) ? last.mesh : nullptr;
   }
-  follow(poses, from, {pose.found->value, end}, ros::Time::now());
+  follow(poses, from, {pose.found->value, end}, begin, ros::Time::now());
 }
 
 void check_lists(const QueryCollisionBatch::Request& batch, const Tool* tool) {

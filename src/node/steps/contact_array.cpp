@@ -61,6 +61,8 @@ void set_failure(ContactArray& answer, std::uint8_t status, const std::string& m
   answer.near.clear();
   answer.near_more = false;
   answer.near_unresolved = 0;
+  answer.around.clear();
+  answer.around_up_to = 0.0;
   answer.clearance = {};
   answer.placement = {};
   answer.view_min.clear();
@@ -200,6 +202,8 @@ double ContactQuery::evaluate(const CollisionRequest& request, ContactArray& ans
   for (const FaceContact& at : result_.contacts) answer.contacts.push_back(to_message(at));
   for (const Region& region : result_.regions) answer.regions.push_back(to_message(region));
   for (const FaceContact& at : result_.near) answer.near.push_back(to_message(at));
+  for (const FaceContact& at : result_.around) answer.around.push_back(to_message(at));
+  answer.around_up_to = result_.around_up_to;
   for (const ViewRange& range : result_.view_ranges) {
     answer.view_min.push_back(range.min);
     answer.view_max.push_back(range.max);

@@ -23,7 +23,7 @@ void Question::wait_for_surface(std::chrono::milliseconds longest) {
 }
 
 void Question::follow(const ToolPoses& poses, const std::optional<Timed<ToolPose>>& from,
-                      const Timed<ToolPose>& to, ros::Time now) {
+                      const Timed<ToolPose>& to, ros::Time velocity_begin, ros::Time now) {
   if (from) {
     sampled = poses.path(*tool, frame, *from, to);
   } else {
@@ -31,7 +31,13 @@ void Question::follow(const ToolPoses& poses, const std::optional<Timed<ToolPose
   }
   tip = to.value.tip;
   const bool has_speed = asked.mode == QueryMode::kSwept && (asked.clearance || asked.margin > 0.0);
-  if (has_speed) pose_before = poses.pose_before(*tool, frame, to, now);
+  if (!has_speed) return;
+  pose_before = poses.pose_before(*tool, frame, velocity_begin, to.stamp, now);
+  if (pose_before) {
+    pose_before_sec = seconds_between(velocity_begin, to.stamp);
+  } else {
+    pose_before = to.value;
+  }
 }
 
 CollisionRequest Question::request(ToolPath path) const {
@@ -41,7 +47,7 @@ CollisionRequest Question::request(ToolPath path) const {
       tool ? AskedTool{tool->parameters.radius, &tool->links} : AskedTool{0.0};
   CollisionRequest request = make_request(of_organ, of_tool, asked, std::move(path));
   request.pose_before = pose_before;
-  request.pose_before_sec = kVelocitySec;
+  request.pose_before_sec = pose_before_sec;
   request.tip = tip;
   return request;
 }

@@ -34,8 +34,9 @@ struct Question {
   // How the tool moves, unless the request gives its motion.
 
   SampledPath sampled;
-  std::optional<ToolPose> pose_before;  ///< ToolPoses::pose_before(), if the answer has a speed
-  std::optional<Eigen::Vector3d> tip;   ///< that of the tool's links at the end of the path
+  std::optional<ToolPose> pose_before;  ///< for closing_speed, if the answer has it
+  double pose_before_sec = kVelocitySec;
+  std::optional<Eigen::Vector3d> tip;  ///< that of the tool's links at the end of the path
 
   void set_organ(const DeformableOrgan& of_node, const OrganShape& of_step);
   /// The organ moves during the step. `from`: its shape at the start. The tissue has its velocity
@@ -45,8 +46,9 @@ struct Question {
   /// `longest`. If it is not inspected by then, the sides will be unknown.
   void wait_for_surface(std::chrono::milliseconds longest);
   /// The tool moves as in TF to `to`. `from`: the end of its last step; empty: it rests at `to`.
+  /// `velocity_begin`: since when its motion counts for its velocity at `to`.
   void follow(const ToolPoses& poses, const std::optional<Timed<ToolPose>>& from,
-              const Timed<ToolPose>& to, ros::Time now);
+              const Timed<ToolPose>& to, ros::Time velocity_begin, ros::Time now);
 
   /// The request, on this path. It refers to the question, which must outlive it.
   CollisionRequest request(ToolPath path) const;

@@ -56,6 +56,7 @@ struct LastStep {
   std::shared_ptr<const TriangleMesh> mesh;
   SteadyTime taken = {};  ///< when the step was evaluated
   ContactArrayConstPtr answer = nullptr;
+  ros::Time begin = {};  ///< the stamp of the first step of this history
 };
 
 /// Whether the organ still has the triangles of the last step.

@@ -306,8 +306,8 @@ ToolStep StepScheduler::begin_step(const DeformableOrgan& organ, std::size_t too
   const bool has_last = pair.last && has_same_faces(*pair.last, *pair.current.mesh);
   if (has_last) step.last_answer = pair.last->answer;
   if (!parameters_.organ_motion) return step;
-  // A shape that makes its step due, or after which newer shapes have come, is not overdue.
-  const bool is_old = is_of_shape || pair.current.mesh != organ.latest().mesh;
+  // A shape after which newer shapes have come is not overdue.
+  const bool is_old = pair.current.mesh != organ.latest().mesh;
   question.set_organ_motion(has_last ? pair.last->mesh : nullptr,
                             is_old ? pair.current.received : ros::Time::now());
   return step;
@@ -352,7 +352,9 @@ void StepScheduler::answer(ToolStep& step, ContactQuery& query) const {
   Question& question = step.question;
   std::optional<Timed<ToolPose>> from;
   if (step.moves) from = {last->pose, last->stamp};
-  question.follow(poses_, from, *step.end, ros::Time::now());
+  const ros::Time end = step.end->stamp;
+  question.follow(poses_, from, *step.end, ToolPoses::velocity_begin(last ? last->begin : end, end),
+                  ros::Time::now());
   SampledPath& sampled = question.sampled;
   if (is_behind_ && sampled.samples_cut > 0 && sampled.unknown.empty()) {
     sampled.unknown = concatenate(
@@ -379,8 +381,9 @@ void StepScheduler::deliver(ToolStep& step) {
   if (step.answer->status == ContactArray::OK) {
     load_.add(step);
     poses_.set_answered(tools_[step.tool], step.question.frame, step.end->stamp);
+    const ros::Time end = step.end->stamp, begin = pair.last ? pair.last->begin : end;
     pair.last =
-        LastStep{std::move(step.end->value), step.end->stamp, pair.current.mesh, now_, step.answer};
+        LastStep{std::move(step.end->value), end, pair.current.mesh, now_, step.answer, begin};
     pair.tried.reset();
   }
   pair.answer = step.answer;

@@ -117,8 +117,8 @@ TEST(RigidMotion, InterpolatesPosesAsQuaternionsDo) {
       end.linear() = start.linear() * oracle::random_turn(angle, random);
       const RigidMotion motion(start, end);
       EXPECT_NEAR(motion.angle(), angle, 1e-14);
-      EXPECT_NEAR(motion.origin_displacement(), (start.translation() - end.translation()).norm(),
-                  1e-15);
+      EXPECT_NEAR(motion.farthest_move(Eigen::Vector3d::Zero(), 0.0),
+                  (start.translation() - end.translation()).norm(), 1e-15);
       EXPECT_EQ(motion.rests(), start.matrix() == end.matrix());
       EXPECT_LE((motion.at(0.0).matrix() - start.matrix()).norm(), 2e-15);
       EXPECT_LE((motion.at(1.0).matrix() - end.matrix()).norm(), 2e-15);
@@ -143,11 +143,27 @@ std::vector<Vector3d> points_of(const ConvexCore& core, const Eigen::Isometry3d&
   return points;
 }
 
+/// The motion of a link behind one to four joints that turn and move.
+RigidMotion on_joints(Random& random) {
+  const double most = random.scale(1e-3, 3.0);
+  std::vector<Isometry3d> start, end;
+  for (int joint = random.integer(1, 4); joint > 0; --joint) {
+    start.push_back(oracle::random_pose(random.scale(1e-4, 0.3), random));
+    end.push_back(start.back());
+    end.back().linear() *= oracle::random_turn(random.uniform(0.0, most), random);
+    end.back().translation() += random.scale(1e-5, 0.05) * random.direction();
+  }
+  const ChainMotion whole{std::make_shared<JointChain>(start, end)};
+  const double begin = random.uniform(0.0, 0.9);
+  const ChainMotion joints = whole.part(begin, random.uniform(begin, 1.0));
+  return {joints.at(0.0), joints.at(1.0), joints};
+}
+
 TEST_P(ConvexCoreOf, MovesNoFartherThanItsBounds) {
   Random random(40 + GetParam());
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < 400; ++i) {
     const LinkTrial trial = oracle::make_link_trial(0, GetParam(), random);
-    const RigidMotion motion = trial.motion();
+    const RigidMotion motion = i % 2 == 0 ? trial.motion() : on_joints(random);
     const CoreMotion core(trial.core, motion);
     const double from = random.uniform(0.0, 1.0), to = random.uniform(from, 1.0);
     const auto first = points_of(trial.core, motion.at(from));

@@ -143,6 +143,13 @@ TEST_F(MotionTopicsTest, BadPosesAreRejectedAndTheLastOneStays) {
   EXPECT_EQ(arrived_.size(), 1u);
 }
 
+TEST_F(MotionTopicsTest, PosesNearTheEndOfTimeAreRejected) {
+  ros::Time::setNow(ros::Time(4294967295.0));
+  for (const double stamp : {0.0, 4294967001.0, 4294967295.0}) {
+    expect_rejected(pose_of("base", stamp, {0.0, 0.0, 1.0}), "beyond what TF can take");
+  }
+}
+
 TEST_F(MotionTopicsTest, ABaseThatWasRejectedIsNotTriedAgain) {
   topics_.take_base(0, pose_of("world", 1.0, {std::nan(""), 0.0, 0.0}));
   topics_.take_tip(0, pose_of("base", 1.0, {0.1, 0.2, 0.3}));

@@ -278,22 +278,3 @@ TEST_F(ToolPosesTest, PathWithinOneSampleIsStraight) {
     EXPECT_EQ(path(hook_, from, to, {0.001, 100}).path.size(), size) << from << ' ' << to;
   }
 }
-
-TEST_F(ToolPosesTest, BetweenStampsThePathFollowsWhatTfInterpolates) {
-  for (const double time : {1.0, 1.04, 1.1}) send_links(time);
-  const auto known = [&](double time) {
-    return *poses_.pose(grasper_, "liver", ros::Time(time)).found;
-  };
-  const SampledPath sampled = poses_.path(grasper_, "liver", known(1.0), known(1.1));
-  EXPECT_EQ(sampled.samples_cut, 0u);
-  EXPECT_GT(sampled.path.size(), 4u);
-  EXPECT_LT(sampled.path.size(), 30u);
-  for (std::size_t leg = 1; leg < sampled.path.size(); ++leg) {
-    const ToolWaypoint &from = sampled.path[leg - 1], &to = sampled.path[leg];
-    const ToolPose right = known(1.0 + 0.05 * (from.fraction + to.fraction)).value;
-    for (std::size_t i = 0; i < 2; ++i) {
-      const Isometry3d found = RigidMotion(from.links[i], to.links[i]).at(0.5);
-      EXPECT_LT((found.translation() - right.links[i].translation()).norm(), 1.1e-6);
-    }
-  }
-}

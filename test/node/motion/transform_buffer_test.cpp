@@ -89,6 +89,21 @@ TEST_F(TransformBufferTest, WhatTfRefusesIsNotInTheRecord) {
   EXPECT_FALSE(buffer_.has_heard("tip"));
 }
 
+TEST_F(TransformBufferTest, TimesThatAreFarApartAreNoError) {
+  send("world", "tip", 20.0);
+  for (const double time : {30.0, 2147483647.0, 2147483648.0, 4294967000.0, 4294967295.0}) {
+    const auto found = look_up(buffer_, "world", "tip", ros::Time(time));
+    EXPECT_TRUE(found.is_late) << found.why_not;
+    EXPECT_NE(found.why_not.find("behind the stamp"), std::string::npos) << found.why_not;
+  }
+  for (const double time : {2147483648.0, 4294967000.0}) {
+    send("world", "tip", time);
+    EXPECT_TRUE(buffer_.has("tip", ros::Time(time)));
+    EXPECT_TRUE(look_up(buffer_, "world", "tip", ros::Time(time)).found);
+    EXPECT_FALSE(look_up(buffer_, "world", "tip", ros::Time(20.0)).found);
+  }
+}
+
 TEST_F(TransformBufferTest, ForgetsWhatTfForgetsAndTheOldestOfTooMany) {
   const auto found = [&] {
     return buffer_.stamps_between("liver", {"tip"}, ros::Time(0.5), ros::Time(100.0));

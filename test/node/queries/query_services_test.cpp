@@ -228,6 +228,89 @@ TEST_F(QueryServicesTest, TellHowFastTissueMovesAndComesNearATool) {
   EXPECT_NEAR(services.query(request).clearance.closing_speed, 0.2, 1e-6);
 }
 
+// Shapes come regularly, late, without stamps, with gaps, from a restarted sender, or after a
+// reset.
+TEST_F(QueryServicesTest, AQuestionHasTheVelocityOfAStepOfTheSameMoment) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  request.motion = {};
+  request.tool = "hook";
+  request.mode = ContactArray::SWEPT;
+  double time = 60.0;
+  std::size_t moving = 0, resting = 0;
+  for (int run = 0; run < 200; ++run) {
+    const double period = std::pow(10.0, -2.0 + 1.5 * share(random));
+    const double kind = share(random);
+    const auto pass = [&](double seconds) {
+      ros::Time::setNow(ros::Time(time += seconds));
+      pipeline.watch_clock();
+      send_tip(time, {0.1, 0.2, -1.0});
+    };
+    if (kind < 0.1) restart_sender();
+    if (kind > 0.9) pipeline.reset();
+    for (int i = 0; i < 12; ++i) {
+      const double lag = kind < 0.3 ? 3.0 * period * share(random) : 0.0;
+      pass(i % 5 == 4 ? 8.0 * period * share(random) : period * (0.5 + share(random)));
+      if (share(random) < 0.7) {
+        const auto height = static_cast<float>(0.1 * share(random));
+        send_vertices(kind > 0.8 ? 0.0 : time - lag, height);
+      }
+      for (int part = 0; part < 3; ++part) {
+        if (part > 0) pass(3.0 * period * share(random));
+        steps.add_tick();
+        const std::vector<ContactArray> answers = evaluate();
+        if (answers.empty() || answers.back().status != ContactArray::OK) continue;
+        const ContactArray asked = services.query(request);
+        ASSERT_EQ(asked.status, ContactArray::OK) << asked.message;
+        ASSERT_EQ(asked.contacts.size(), answers.back().contacts.size());
+        for (std::size_t k = 0; k < asked.contacts.size(); ++k) {
+          const double velocity = answers.back().contacts[k].velocity.z;
+          ASSERT_EQ(asked.contacts[k].velocity.z, velocity) << "run " << run << ", at " << time;
+          ++(velocity == 0.0 ? resting : moving);
+        }
+      }
+    }
+  }
+  EXPECT_GT(moving, 500U);
+  EXPECT_GT(resting, 500U);
+}
+
+// In steps: of the last 10 ms, but not before the history began. In questions: of their step.
+TEST_F(QueryServicesTest, ClosingSpeedIsThatOfTheLastMotion) {
+  const auto z = [](double since) { return 0.6 - 0.1 * since - 4.0 * since * since; };
+  const auto speed = [&](double from, double to) { return (z(from) - z(to)) / (to - from); };
+  const auto pose = [&](double since) {
+    ros::Time::setNow(ros::Time(60.0 + since));
+    send_tip(60.0 + since, {0.1, 0.2, z(since)});
+  };
+  const auto step = [&] {
+    steps.add_tick();
+    return evaluate().at(0).clearance.closing_speed;
+  };
+  tools[0].parameters.margin = 2.0;
+  request.tool = "hook";
+  request.motion = {};
+  request.clearance = true;
+  const auto asked = [&] { return services.query(request).clearance.closing_speed; };
+  for (const double since : {0.0, 0.002, 0.004, 0.006}) pose(since);
+  send_mesh(0.0, 0.0F);
+  evaluate(std::chrono::seconds(1));  // The shape of 1.0 s has no pose.
+  pipeline.reset();
+  EXPECT_EQ(step(), 0.0) << "the history begins";
+  pose(0.008), pose(0.01);
+  EXPECT_NEAR(step(), speed(0.006, 0.01), 1e-6);
+  EXPECT_NEAR(asked(), speed(0.006, 0.01), 1e-6)
+      << "a step without duration goes on from steps before";
+  pose(0.012);
+  EXPECT_NEAR(step(), speed(0.006, 0.012), 1e-6);
+  for (const double since : {0.02, 0.03}) pose(since);
+  EXPECT_NEAR(asked(), speed(0.012, 0.03), 1e-6);
+  EXPECT_NEAR(step(), speed(0.02, 0.03), 1e-6);
+  pose(0.034);
+  EXPECT_NEAR(asked(), speed(0.03, 0.034), 1e-6);
+  EXPECT_NEAR(step(), (z(0.024) - z(0.034)) / 0.01, 3e-3) << "TF interpolates between the poses";
+}
+
 TEST_F(QueryServicesTest, AnEmptyNameStandsForTheOnlyOrgan) {
   const ContactArray named = services.query(request);
   request.organ = "";

@@ -223,7 +223,7 @@ const std::vector<Row> kRows = {
     {"a shape after it", [](NodeParts& node) { node.send_mesh(51.1, 0.1F, 2); }, 0.0},
     {"the next one", [](NodeParts& node) { node.send_mesh(51.2, 0.2F, 2); }, 1.0},
     {"a shape that came long before its transform",
-     [](NodeParts& node) { node.send_mesh(51.201, 0.201F, 2), pass(node, 50.85); }, 1.0},
+     [](NodeParts& node) { node.send_mesh(51.201, 0.201F, 2), pass(node, 50.85); }, 0.0},
     {"shapes that jump",
      [](NodeParts& node) {
        node.parameters.organ_motion = false;

@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "organ_collision/geometry/tool/joint_chain.hpp"
+
 namespace organ_collision {
 
 /// The axis of a tool's shaft at one time, in the organ's frame [m]. The shaft is a capsule: all
@@ -17,19 +19,28 @@ struct ShaftAxis {
   Eigen::Vector3d at(double place) const { return trocar + place * along(); }
 };
 
-/// How an end of a shaft's axis moves during one leg if a rigid body carries it: on an arc beside
-/// the straight line. The origin of the body moves linearly. The body turns about a fixed direction
-/// at constant speed, by at most half a turn. Without a turn, the end moves linearly.
-struct ShaftArc {
-  Eigen::Vector3d turn = Eigen::Vector3d::Zero();  ///< [rad] rotation vector of the body's turn
-  Eigen::Vector3d arm = Eigen::Vector3d::Zero();   ///< [m] from origin to end, at time 0
+/// How an end of a shaft's axis moves during one leg if a body on a chain of joints carries it: on
+/// an arc beside the straight line. Without a body, the end moves linearly.
+class ShaftArc {
+ public:
+  ShaftArc() = default;
+  /// `p_body`: the end of the axis in the frame of the body [m].
+  ShaftArc(const ChainMotion& body, const Eigen::Vector3d& p_body);
 
   /// [m] The place of the end at `time` in [0, 1] of the leg, minus its place on the straight line.
   Eigen::Vector3d beside_line(double time) const;
   /// [m] An upper bound of the length of beside_line(), for all times.
-  double deviation() const { return turn.norm() * turn.cross(arm).norm() / 8.0; }
+  double deviation() const { return deviation_; }
+  /// [rad] An upper bound of the angle by which the body turns.
+  double angle() const { return body_.angle(); }
   /// The arc from the time `begin` to the time `end` of this one.
   ShaftArc part(double begin, double end) const;
+
+ private:
+  ChainMotion body_;
+  Eigen::Vector3d p_body_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d start_ = Eigen::Vector3d::Zero(), end_ = Eigen::Vector3d::Zero();  ///< places
+  double deviation_ = 0.0;
 };
 
 /// The arcs of trocar and tip.
