@@ -3,6 +3,7 @@
 #include <organ_collision/ContactArray.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/messages/text.hpp"
 #include "geometry/concatenate.hpp"
@@ -57,32 +58,65 @@ Vector3d frame_velocity(const ProxyScene& scene, std::size_t organ, const FaceCo
   return (contact.point - before) / kVelocitySec;
 }
 
+/// [m/s] No tissue of an organ moves faster.
+struct Speeds {
+  double of_shape = 0.0, of_frame = 0.0;  ///< the two parts of tissue_velocity()
+};
+
+Speeds fastest(const ProxyScene& scene, std::size_t organ) {
+  Speeds most;
+  const TissueMotion& motion = scene.motions[organ];
+  if (motion.shape_before) {
+    const auto vertices = [](const TriangleMesh& mesh) {
+      return Eigen::Map<const Eigen::ArrayXf>(mesh.vertices().data(),
+                                              static_cast<Eigen::Index>(mesh.vertices().size()));
+    };
+    const double way = (vertices(*motion.shape_after) - vertices(*motion.shape_before))
+                           .abs()
+                           .maxCoeff();  // along each axis
+    most.of_shape = std::sqrt(3.0) * way / motion.shape_sec;
+  }
+  // A frame moves a point by an affine function of its place: a corner moves the farthest.
+  const Eigen::AlignedBox3d box = scene.organs[organ].shape->box().cast<double>();
+  for (int corner = 0; corner < 8; ++corner) {
+    FaceContact at;
+    at.point = scene.organs[organ].T_organ_proxy.inverse() *
+               box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
+    most.of_frame = std::max(most.of_frame, frame_velocity(scene, organ, at).norm());
+  }
+  return most;
+}
+
 }  // namespace
 
 Vector3d tissue_velocity(const ProxyScene& scene, std::size_t organ, const FaceContact& contact) {
   return shape_velocity(scene, organ, contact) + frame_velocity(scene, organ, contact);
 }
 
-void guard_lag(const ProxyScene& scene, std::size_t organ, ProxyOrgan& guarded) {
+void tell_motion(const ProxyScene& scene, std::size_t organ, bool guards_lag, bool tells_rows,
+                 ProxyOrgan& told) {
   constexpr double kMostAdvance = 0.02;  // [m] The search goes so far beyond the clearance.
   const TissueMotion& motion = scene.motions[organ];
-  const bool has_late_shape = motion.shape_before && motion.lag_sec > 0.0;
-  if (!has_late_shape && motion.frame_lag_sec == 0.0) return;
-  guarded.advance = [&scene, organ](const FaceContact& contact) {
-    const TissueMotion& late = scene.motions[organ];
-    return -contact.normal.dot(late.lag_sec * shape_velocity(scene, organ, contact) +
-                               late.frame_lag_sec * frame_velocity(scene, organ, contact));
-  };
-  guarded.most_advance = kMostAdvance;
-  if (motion.frame_lag_sec > 0.0) return;
-  const auto vertices = [](const TriangleMesh& mesh) {
-    return Eigen::Map<const Eigen::ArrayXf>(mesh.vertices().data(),
-                                            static_cast<Eigen::Index>(mesh.vertices().size()));
-  };
-  const double step =  // [m] No vertex has moved farther.
-      std::sqrt(3.0) *
-      (vertices(*motion.shape_after) - vertices(*motion.shape_before)).abs().maxCoeff();
-  guarded.most_advance = std::min(kMostAdvance, step * motion.lag_sec / motion.shape_sec);
+  if (!motion.shape_before && !motion.T_before) return;
+  const double lag = motion.shape_before ? motion.lag_sec : 0.0;
+  const bool is_late = guards_lag && (lag > 0.0 || motion.frame_lag_sec > 0.0);
+  if (!is_late && !tells_rows) return;
+  const Speeds most = fastest(scene, organ);
+  if (is_late) {
+    told.advance = [&scene, organ](const FaceContact& contact) {
+      const TissueMotion& late = scene.motions[organ];
+      return -contact.normal.dot(late.lag_sec * shape_velocity(scene, organ, contact) +
+                                 late.frame_lag_sec * frame_velocity(scene, organ, contact));
+    };
+    told.most_advance =
+        std::min(kMostAdvance, lag * most.of_shape + motion.frame_lag_sec * most.of_frame);
+  }
+  if (tells_rows) {
+    told.approach = [&scene, organ](const FaceContact& contact) {
+      return -contact.normal.dot(tissue_velocity(scene, organ, contact));
+    };
+    told.most_approach = most.of_shape + most.of_frame;
+  }
 }
 
 TissuePush tissue_push(const ProxyScene& scene, const std::vector<ProxyOrgan>& before,

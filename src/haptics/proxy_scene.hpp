@@ -60,9 +60,11 @@ struct ProxyScene {
 Eigen::Vector3d tissue_velocity(const ProxyScene& scene, std::size_t organ,
                                 const FaceContact& contact);
 
-/// Sets ProxyOrgan::advance of an organ of the scene: the speed at which the tissue comes towards
-/// the tool times the lag of its shape and of its frame. `advance` refers to the scene.
-void guard_lag(const ProxyScene& scene, std::size_t organ, ProxyOrgan& guarded);
+/// Tells a proxy how an organ of the scene moves. `guards_lag`: sets ProxyOrgan::advance, the speed
+/// at which the tissue comes towards the tool times the lag of its shape and of its frame.
+/// `tells_rows`: sets ProxyOrgan::approach. Both refer to the scene.
+void tell_motion(const ProxyScene& scene, std::size_t organ, bool guards_lag, bool tells_rows,
+                 ProxyOrgan& told);
 
 /// What tissue does to a proxy that it holds: the mean over all places that bear a load, along
 /// these loads and weighted by them. In the proxy's frame, at the centre or the tip of the tool.

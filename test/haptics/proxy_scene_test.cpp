@@ -198,6 +198,20 @@ TEST_F(ProxySceneTest, TissueMovesWithItsShapeAndWithItsFrame) {
   EXPECT_LT((velocity("liver_frame", 7.93) - Eigen::Vector3d(0.0, 0.0, 0.5)).norm(), 1e-4);
   EXPECT_LT((velocity("world", 7.93) - Eigen::Vector3d(1.0, 0.0, 0.5)).norm(), 1e-4);
   EXPECT_EQ(velocity("liver_frame", 8.03), Eigen::Vector3d(0.0, 0.0, 0.0)) << "no shape came since";
+  // A proxy asks for the corners of faces.
+  ProxyScene late = proxy_scene(store_, transforms_, "world", {}, ros::Time(7.93), latest_shape);
+  late.motions[0].lag_sec = 0.02;
+  late.motions[0].frame_lag_sec = 0.005;
+  ProxyOrgan told;
+  tell_motion(late, 0, true, true, told);
+  for (int axis = 0; axis < 3; ++axis) {
+    contact.barycentric = Eigen::Vector3d::Unit(axis);
+    contact.normal = -Eigen::Vector3d::Unit(axis);
+    EXPECT_NEAR(told.advance(contact), Eigen::Vector3d(0.005, 0.0, 0.01)[axis], 1e-5) << axis;
+    EXPECT_NEAR(told.approach(contact), Eigen::Vector3d(1.0, 0.0, 0.5)[axis], 1e-3) << axis;
+    EXPECT_LE(told.advance(contact), told.most_advance);
+    EXPECT_LE(told.approach(contact), told.most_approach);
+  }
 }
 
 /// Neither its velocity nor the proxy takes the way between both shapes for a motion.

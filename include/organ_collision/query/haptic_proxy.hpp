@@ -62,7 +62,8 @@ struct ProxySettings {
   /// tool never pierces. Only for a shaft through a trocar.
   std::optional<double> puncture = {};
   /// [m] ProxyAnswer::contacts lists tissue up to this distance, and at least up to its clearance
-  /// plus the least clearance of all, which is twice the clearance if there is only one.
+  /// plus the least clearance of all, which is twice the clearance if there is only one. 0: no rows
+  /// are looked for, which saves time; what holds the proxy is listed.
   double row_reach = 0.0;
   bool hand_rows = false;  ///< whether ProxyAnswer::hand_contacts is filled
   /// [m] A needle in tissue slides along its axis if the tip of the hand is this far from the tip
@@ -92,19 +93,25 @@ struct ProxyOrgan {
   /// not hold this part of the tool. Empty: ProxySettings::clearance, for all of them.
   std::vector<double> clearances = {};
   /// [m] How far tissue has come towards the tool, along the normal of a contact in the proxy's
-  /// frame, since the shape was measured. The clearance at the contact grows by it, up to
-  /// `most_advance`. Only called within follow(). Null: the shape is not late.
+  /// frame, since the shape was measured. The clearance at the contact grows by how much nearer its
+  /// face then is, up to `most_advance`. It is also asked for the corners of faces, with any
+  /// normal; face, vertices, barycentric, point and on_organ are then those of the corner. Only
+  /// called within follow(). Null: the shape is not late.
   std::function<double(const FaceContact&)> advance = {};
   double most_advance = 0.0;  ///< [m] the most that `advance` counts
+  /// [m/s] How fast tissue comes towards the tool, asked for in the same way. A row does not stand
+  /// for faces that will be nearer within 0.1 s. Null: the tissue rests.
+  std::function<double(const FaceContact&)> approach = {};
+  double most_approach = 0.0;  ///< [m/s] the most that `approach` counts
 };
 
 /// A face near a proxy, and the load that it bears.
 struct ProxyFace {
   std::size_t organ = 0;  ///< the place of the organ in the list given to follow()
   /// The nearest points of the proxy and a face, in the proxy's frame. `depth` is minus the
-  /// distance, and `fraction` is 0. Of each locally convex patch, about as wide as the clearance,
-  /// the nearest face is listed up to the distance of ProxySettings::row_reach. If the proxy is
-  /// still on its way, the nearest faces are listed. Nothing is listed for a needle in tissue.
+  /// distance, and `fraction` is 0. Of each locally convex patch, the nearest face is listed up to
+  /// the distance of ProxySettings::row_reach, so the nearest face of all always is. If the proxy
+  /// is still on its way, the nearest faces are listed. Nothing is listed for a needle in tissue.
   FaceContact contact;
   /// [m] The distance that is kept here now: the clearance of the organ and the link, and what the
   /// tissue has come nearer (ProxyOrgan::advance).

@@ -81,8 +81,8 @@ struct HapticProxy::State {
   bool is_in_new_tissue(Tick& tick);
   HandWay way_of(const ToolPose& hand) const;
   void describe(Tick& tick);
-  bool add_rows(const ToolPose& pose, double told, double spare, std::vector<ProxyFace>& rows);
-  void describe_hand(Tick& tick, double told);
+  bool add_rows(const ToolPose& pose, std::vector<ProxyFace>& rows);
+  void describe_hand(Tick& tick);
 
   std::unique_ptr<Mobility> mobility;
   Tissue tissue;
@@ -174,7 +174,7 @@ void HapticProxy::State::follow(const ToolPose& hand, const std::vector<ProxyOrg
   for (std::size_t i = 0; i < organs.size(); ++i) {
     last_organs[i].keep = tick.motions[i].keep;
     last_organs[i].clearances = tick.motions[i].clearances;
-    last_organs[i].advance = nullptr;  // Only follow() may call it.
+    last_organs[i].advance = last_organs[i].approach = nullptr;  // Only follow() may call them.
   }
   last_clearance = tissue.clearance();
 }
@@ -264,7 +264,8 @@ std::vector<OrganTick> HapticProxy::State::match(const std::vector<ProxyOrgan>& 
       if (!has_same_triangles) continue;
       tick.before = last.shape.get();
       tick.T_before = last.T_organ_proxy;
-      tick.is_new = organ.topology && !last.topology;
+      // The proxy may be on the wrong side of an organ that is inspected only now, or kept anew.
+      tick.is_new = (organ.topology && !last.topology) || tick.keep != last.keep;
     }
   }
   return ticks;
@@ -356,8 +357,8 @@ void HapticProxy::State::describe(Tick& tick) {
   }
   // A face bears load up to a distance that exceeds its clearance if the proxy hovers because it
   // did not reach its place in this tick.
-  hovers = std::max(0.0, hovers);
-  const double told = std::max(2.0 * clearance.rest, kResting * (clearance.rest + hovers));
+  hovers = back.isZero(0.0) ? 0.0 : std::max(0.0, hovers);
+  const double told = std::max(clearance.told(), kResting * (clearance.rest + hovers));
   std::vector<Wall> holding;
   for (std::size_t i = 0; i < motion.contacts().size(); ++i) {
     const TissueContact& near = motion.contacts()[i];
@@ -369,36 +370,40 @@ void HapticProxy::State::describe(Tick& tick) {
   }
   solver.solve(back, holding);
   for (std::size_t i = 0; i < holding.size(); ++i) said.contacts[i].load = solver.load(i);
-  sort(said.contacts);
   if (nearest < clearance.least()) {
     said.state = ProxyStatus::kSqueezed;
   } else {
     said.state = back.isZero(0.0) ? ProxyStatus::kFree : ProxyStatus::kTouching;
   }
-  if (settings.row_reach > told) add_rows(now.pose, told, told - clearance.rest, said.contacts);
-  if (settings.hand_rows) describe_hand(tick, told);
+  if (settings.row_reach > 0.0) add_rows(now.pose, said.contacts);
+  sort(said.contacts);
+  if (settings.hand_rows) describe_hand(tick);
 }
 
-/// Adds the tissue near the tool at a pose that the tool could come nearer to by at least `spare`
-/// [m], up to the scaled distance `told` [m] and up to row_reach: the nearest face of each patch,
-/// whose radius is half of that. Returns false if the tests of the tick are used up. Tissue is then
-/// missing.
-bool HapticProxy::State::add_rows(const ToolPose& pose, double told, double spare,
-                                  std::vector<ProxyFace>& rows) {
-  const double reach = std::max(told, settings.row_reach);
+/// Adds the tissue near the tool at a pose, up to row_reach and at least as far as an answer tells:
+/// the nearest face of each patch, whose radius is half of that, unless it is listed already.
+/// Returns false if the tests of the tick are used up. Tissue is then missing.
+bool HapticProxy::State::add_rows(const ToolPose& pose, std::vector<ProxyFace>& rows) {
+  const ProxyClearance& clearance = tissue.clearance();
+  const double reach = std::max(clearance.told(), settings.row_reach);
   const bool is_complete =
-      tissue.look(pose, {told, 0.5 * reach, tissue.clearance().rest}, found, settings.row_reach);
+      tissue.look(pose, {clearance.told(), 0.5 * reach, clearance.rest}, found, reach);
+  const auto listed = static_cast<std::ptrdiff_t>(rows.size());
   for (const TissueContact& near : found) {
-    if (near.spare() >= spare) rows.push_back(face_at(near));
+    const bool is_listed =
+        std::any_of(rows.begin(), rows.begin() + listed, [&](const ProxyFace& row) {
+          return row.organ == near.organ && row.contact.face == near.contact.face &&
+                 row.contact.link == near.contact.link;
+        });
+    if (!is_listed) rows.push_back(face_at(near));
   }
-  sort(rows);
   return is_complete;
 }
 
 /// The rows of the hand as it is. None if the way from the proxy to the hand meets tissue: the hand
 /// has passed a wall, behind which its rows would point the wrong way. None, too, if the tests of
 /// the tick are used up.
-void HapticProxy::State::describe_hand(Tick& tick, double told) {
+void HapticProxy::State::describe_hand(Tick& tick) {
   std::vector<ProxyFace>& rows = tick.answer.hand_contacts;
   if (tick.answer.state == ProxyStatus::kFree) {
     rows = tick.answer.contacts;
@@ -407,7 +412,8 @@ void HapticProxy::State::describe_hand(Tick& tick, double told) {
   }
   tissue.touch({tick.place->pose, tick.hand}, 0.0, found);
   if (!found.empty()) return;
-  if (!add_rows(tick.hand, told, -std::numeric_limits<double>::infinity(), rows)) rows.clear();
+  if (!add_rows(tick.hand, rows)) rows.clear();
+  sort(rows);
 }
 
 }  // namespace organ_collision

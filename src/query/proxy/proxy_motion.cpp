@@ -28,8 +28,6 @@ constexpr double kConverged = 0.0025, kSmallestSlide = 1e-6;
 /// [m] How far a proxy slides from one look to the next, at most. It looks at least so far, and at
 /// most so far, beyond its clearance.
 constexpr double kShortestReach = 1e-4, kLongestReach = 2e-3;
-/// [1] The answer tells of tissue up to this many times the clearance at rest.
-constexpr double kTold = 2.0;
 /// [1] A proxy that hovers looks for the faces that hold it up to this many times its clearance.
 constexpr double kFarthestLook = 21.0;
 
@@ -232,10 +230,10 @@ bool ProxyMotion::fly(ProxyPlace& place, const ToolPose& hand) {
     if (tissue_.is_used_up() || place.clearance < clearance_.rest) return false;
     if (!fly(place, hand, clearance_.rest)) return false;
     there.clearance = place.clearance;
-    look_around(there, told());
+    look_around(there, clearance_.told());
     if (!contacts_.empty() && contacts_.front().spare() < 0.0) return false;
   } else {
-    const double distance = std::max(told(), clearance_.rest + 2.0 * way);
+    const double distance = std::max(clearance_.told(), clearance_.rest + 2.0 * way);
     if (!look_around(there, distance)) return false;
     if (!contacts_.empty() && contacts_.front().spare() < 0.0) return false;
     const double growth = growth_from(place.clearance);
@@ -243,10 +241,6 @@ bool ProxyMotion::fly(ProxyPlace& place, const ToolPose& hand) {
         !fly(place, hand, growth)) {
       return false;
     }
-  }
-  while (!contacts_.empty() && contacts_.back().spare() >= told() - clearance_.rest) {
-    contacts_.pop_back();
-    walls_.pop_back();
   }
   place = there;
   return true;
@@ -267,7 +261,7 @@ void ProxyMotion::slide(ProxyPlace& place, const ToolPose& hand, double reach) {
     // the proxy is there, and all that the answer tells.
     const double distance = clearance_.rest + reach;
     tells = look > 1;
-    if (!look_around(place, tells ? std::max(distance, told()) : distance)) {
+    if (!look_around(place, tells ? std::max(distance, clearance_.told()) : distance)) {
       return stay_at(place, start);
     }
     if (look == 1) growth = growth_from(place.clearance);
@@ -307,7 +301,7 @@ void ProxyMotion::slide(ProxyPlace& place, const ToolPose& hand, double reach) {
   }
   // A proxy that has not arrived may hover far from tissue. Look for the faces that hold it farther
   // and farther away, until there is one.
-  double distance = told();
+  double distance = clearance_.told();
   if (!tells) look_around(place, distance);
   while (!is_there && contacts_.empty() && distance < kFarthestLook * clearance_.rest) {
     distance *= 2.0;
@@ -337,9 +331,6 @@ bool ProxyMotion::look_around(ProxyPlace& place, double distance) {
   }
   return true;
 }
-
-/// [m] Up to which distance the answer tells of tissue.
-double ProxyMotion::told() const { return kTold * clearance_.rest; }
 
 /// Whether the scaled distances at both ends prove that the straight way between two places stays
 /// farther than `growth` [m] from tissue: a distance changes by at most what the tool moves.

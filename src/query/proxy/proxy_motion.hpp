@@ -77,7 +77,6 @@ class ProxyMotion {
   double share_of_give_way(const ToolPose& given) const;
   bool look_around(ProxyPlace& place, double distance);
   void stay_at(ProxyPlace& place, const ProxyPlace& start);
-  double told() const;
   bool is_clear(const ProxyPlace& from, const ProxyPlace& to, double growth) const;
   void add_walls(const ToolPose& given, const ToolPose& pose,
                  const std::vector<TissueContact>& contacts);

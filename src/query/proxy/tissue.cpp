@@ -11,6 +11,9 @@ namespace {
 /// [m] The radius of a middle line, and of a shaft that is made as thin as its axis.
 constexpr double kAxisRadius = 1e-6;
 
+/// [s] A row stands for no tissue that will be nearer so much later: many periods of a controller.
+constexpr double kSoon = 0.1;
+
 constexpr QueryOptions kPlacement{QueryMode::kStatic, false, 0.0, 0, false, true};
 
 /// The middle line of a part: the segment through the middle of its box, along the longest side.
@@ -30,6 +33,34 @@ ToolWaypoint waypoint(double fraction, const Eigen::Isometry3d& T_organ_proxy,
       fraction, {T_organ_proxy * pose.axis.trocar, T_organ_proxy * pose.axis.tip}, pose.links};
   for (Eigen::Isometry3d& link : result.links) link = T_organ_proxy * link;
   return result;
+}
+
+/// What counts of a way or a speed: only towards the tool, up to `most`, and not if it is NaN.
+double counted(double value, double most) { return std::max(0.0, std::min(value, most)); }
+
+/// How far an organ's tissue has come since its shape was measured, or will have come `later` [s].
+PatchFinder::Coming coming(const OrganTick& organ, double later) {
+  const ProxyOrgan* const given = organ.given;
+  const bool is_late = given && given->advance, comes = given && given->approach && later > 0.0;
+  if (!is_late && !comes) return {};
+  const auto against =
+      [=, &mesh = *organ.now, T_proxy_organ = Eigen::Isometry3d(organ.T_now.inverse())](
+          std::uint32_t face, const Triangle& corners, const Eigen::Vector3d& normal) {
+        FaceContact at;
+        at.face = face;
+        at.vertices = mesh.faces()[face];
+        at.normal = T_proxy_organ.linear() * normal;
+        Eigen::Vector3d ways = Eigen::Vector3d::Zero();
+        for (int k = 0; k < 3; ++k) {
+          at.barycentric = Eigen::Vector3d::Unit(k);
+          at.point = at.on_organ = T_proxy_organ * corners[k];
+          if (is_late) ways[k] += counted(given->advance(at), given->most_advance);
+          if (comes) ways[k] += later * counted(given->approach(at), given->most_approach);
+        }
+        return ways;
+      };
+  return {against,
+          (is_late ? given->most_advance : 0.0) + (comes ? later * given->most_approach : 0.0)};
 }
 
 }  // namespace
@@ -96,8 +127,8 @@ void Tissue::touch(const std::vector<ToolPose>& way, double growth,
 }
 
 /// Adds a contact of a tool that is grown by `grown_by` [m], in the organ's frame.
-void Tissue::add(std::size_t organ, const FaceContact& found, double grown_by,
-                 std::vector<TissueContact>& contacts) const {
+TissueContact& Tissue::add(std::size_t organ, const FaceContact& found, double grown_by,
+                           std::vector<TissueContact>& contacts) const {
   const OrganTick& tick = (*organs_)[organ];
   const Eigen::Isometry3d T_proxy_organ = tick.T_now.inverse();
   const double own = clearance(tick, found.link), distance = grown_by - found.depth;
@@ -106,10 +137,10 @@ void Tissue::add(std::size_t organ, const FaceContact& found, double grown_by,
   contact.contact.on_organ = T_proxy_organ * found.on_organ;
   contact.contact.normal = T_proxy_organ.linear() * found.normal;
   if (tick.given && tick.given->advance) {
-    contact.clearance +=
-        std::max(0.0, std::min(tick.given->advance(contact.contact), tick.given->most_advance));
+    contact.clearance += counted(tick.given->advance(contact.contact), tick.given->most_advance);
   }
   contacts.push_back(contact);
+  return contacts.back();
 }
 
 /// Sets how far from an organ each part of the tool looks.
@@ -136,18 +167,26 @@ bool Tissue::look(const ToolPose& pose, const PatchFinder::Limits& limits,
     std::size_t tests = tests_;
     found_.clear();
     set_limits(tick, limits, reach);
-    if (!patches_.find(Step(request, request.path, unused), limits_, tests, found_)) {
+    const PatchFinder::Coming late = coming(tick, 0.0),
+                              soon = coming(tick, reach > 0.0 ? kSoon : 0.0);
+    if (!patches_.find(Step(request, request.path, unused), limits_, late, soon, tests, found_)) {
       is_complete = false;
     }
     count(tests_ - tests);
     // A face has one contact with a link, whichever part of the link is the nearest.
-    std::sort(found_.begin(), found_.end(), [](const FaceContact& a, const FaceContact& b) {
-      return std::tie(a.face, a.link, b.depth) < std::tie(b.face, b.link, a.depth);
+    std::sort(found_.begin(), found_.end(), [](const auto& a, const auto& b) {
+      return std::make_tuple(a.contact.face, a.contact.link, -a.contact.depth - a.advance) <
+             std::make_tuple(b.contact.face, b.contact.link, -b.contact.depth - b.advance);
     });
     const auto end = std::unique(found_.begin(), found_.end(), [](const auto& a, const auto& b) {
-      return a.face == b.face && a.link == b.link;
+      return a.contact.face == b.contact.face && a.contact.link == b.contact.link;
     });
-    for (auto found = found_.begin(); found != end; ++found) add(organ, *found, 0.0, contacts);
+    for (auto found = found_.begin(); found != end; ++found) {
+      TissueContact& near = add(organ, found->contact, 0.0, contacts);
+      // Other places of the face may come nearer than the one that is the nearest now.
+      near.clearance =
+          std::max(near.clearance, clearance(organ, near.contact.link) + found->advance);
+    }
   }
   const double most = limits.distance - clearance_.rest;
   const auto is_far = [&](const TissueContact& found) {

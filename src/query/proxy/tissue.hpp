@@ -20,6 +20,7 @@ struct ProxyClearance {
   /// surface need not follow each curve.
   double swept() const { return 0.6 * rest; }
   double least() const { return 0.5 * rest; }  ///< a proxy nearer than this is squeezed
+  double told() const { return 2.0 * rest; }   ///< the answer tells of tissue up to this distance
 
   /// The scaled distance of a part with the clearance `own`. It is proportional to the distance up
   /// to `own`, and then rises as the distance does. As `rest` is at most `own`, no motion changes
@@ -106,9 +107,10 @@ class Tissue {
 
   /// The tissue near the tool at a pose, that with the least spare() first: of each locally convex
   /// patch only the nearest face. `limits`: for a part with the least clearance. The search goes as
-  /// far beyond each larger clearance, and at least to the distance `reach` [m]. The organs rest in
-  /// their shapes now. Returns false if the tests of the tick were used up: nearer faces may then
-  /// be missing.
+  /// far beyond each larger clearance, and at least to the distance `reach` [m]. If there is a
+  /// reach, the contacts become rows: none stands for tissue that will soon be nearer. The organs
+  /// rest in their shapes now. Returns false if the tests of the tick were used up: nearer faces
+  /// may then be missing.
   bool look(const ToolPose& pose, const PatchFinder::Limits& limits,
             std::vector<TissueContact>& contacts, double reach = 0.0);
 
@@ -137,8 +139,8 @@ class Tissue {
  private:
   AskedTool grow(const OrganTick& organ, double growth);
   void set_limits(const OrganTick& organ, const PatchFinder::Limits& limits, double reach);
-  void add(std::size_t organ, const FaceContact& found, double grown_by,
-           std::vector<TissueContact>& contacts) const;
+  TissueContact& add(std::size_t organ, const FaceContact& found, double grown_by,
+                     std::vector<TissueContact>& contacts) const;
   void count(std::size_t tests);
   const AxisPlacement& placement(const OrganTick& organ, const ShaftAxis& axis,
                                  const SurfaceTopology* topology);
@@ -155,7 +157,7 @@ class Tissue {
   std::vector<PatchFinder::Limits> limits_;  ///< of the shaft and the links
   std::size_t tests_ = kMostTests;           ///< that are left
   std::size_t tests_made_ = 0;
-  std::vector<FaceContact> found_;
+  std::vector<PatchFinder::Found> found_;
 };
 
 }  // namespace organ_collision

@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "proxy_scenes.hpp"
-#include "test/proof/exact_distance.hpp"
 #include "test/proof/proxy/referee.hpp"
 #include "test/proof/proxy/scenes.hpp"
 #include "test/refusals.hpp"
@@ -97,6 +96,7 @@ TEST(ProxyRefusal, OfAHandOrAnOrganChangesNothing) {
       {"-1", [](Hand&, Organs& organs) { organs[0].clearances = {-1.0}; }},
       {"'organ'", [](Hand&, Organs& organs) { organs[0].clearances = {kInfinity}; }},
       {"advanced", [](Hand&, Organs& organs) { organs[0].most_advance = kNan; }},
+      {"approaches", [](Hand&, Organs& organs) { organs[0].most_approach = -1.0; }},
       {"rotation", [](Hand&, Organs& organs) { organs[0].T_organ_proxy.linear() *= 2.0; }}};
   const ProxyTool tool = shaft_tool();
   const Organs organs = {organ_of(grid_surface(20))};
@@ -339,59 +339,6 @@ TEST(ProxySqueeze, HoldsTissueBetweenJawsThatClose) {
     }
   }
   EXPECT_GT(squeezed, 500);
-}
-
-/// [m] From the surface of a ball to the nearest face of an organ in the proxy's frame.
-double distance_of_ball(const Vector3d& center, const ProxyOrgan& organ) {
-  const ConvexCore ball{ShaftAxis{center, center}};
-  double nearest = kInfinity;
-  for (std::size_t face = 0; face < organ.shape->face_count(); ++face) {
-    nearest = std::min(nearest, oracle::rounded_distance(ball, organ.shape->triangle(face)));
-  }
-  return nearest - kToolRadius;
-}
-
-TEST(ProxyRows, TellWhereTissueIsAroundTheProxyAndAroundTheHand) {
-  Random random(71);
-  std::size_t of_hand = 0, passed_a_wall = 0, beyond = 0;
-  for (int trial = 0; trial < 12; ++trial) {
-    ProxySettings settings;
-    settings.clearance = random.scale(1e-4, 5e-3);
-    settings.row_reach = random.scale(1e-3, 0.03);
-    settings.hand_rows = true;
-    const double told = std::max(settings.row_reach, 2.0 * settings.clearance);
-    HapticProxy proxy(ball_tool(), settings);
-    const ProxyOrgan organ = organ_of(sphere(24, 36, 0.04));
-    Vector3d center(0.0, 0.0, 0.06);
-    for (int tick = 0; tick < 40; ++tick) {
-      center += random.point(4e-3);
-      center *= random.uniform(0.05, 0.07) / center.norm() - (tick % 8 == 7 ? 0.4 : 0.0);
-      const ProxyAnswer& answer = proxy.follow(ball_hand(center), {organ});
-      const Vector3d held = answer.proxy.axis.tip;
-      const double away = distance_of_ball(held, organ);
-      ASSERT_EQ(answer.contacts.empty(), away >= told) << away;
-      if (!answer.contacts.empty()) {
-        EXPECT_NEAR(-answer.contacts[0].contact.depth, away, 1e-8);
-      }
-      for (const ProxyFace& row : answer.contacts) {
-        const Vector3d point = held + (kToolRadius - row.contact.depth) * row.contact.normal;
-        EXPECT_LT((point - row.contact.point).norm(), 1e-8);
-        beyond += -row.contact.depth > 2.0 * settings.clearance;
-      }
-      const double hand_away = distance_of_ball(center, organ);
-      if (center.norm() < 0.038) {
-        EXPECT_TRUE(answer.hand_contacts.empty()) << "the hand has passed the wall";
-        ++passed_a_wall;
-      } else if (hand_away > 1e-4 && hand_away < told && !answer.hand_contacts.empty()) {
-        EXPECT_NEAR(-answer.hand_contacts[0].contact.depth, hand_away, 1e-8);
-        ++of_hand;
-      }
-      for (const ProxyFace& row : answer.hand_contacts) EXPECT_EQ(row.load, 0.0);
-    }
-  }
-  EXPECT_GT(of_hand, 30u);
-  EXPECT_GT(passed_a_wall, 20u);
-  EXPECT_GT(beyond, 50u);
 }
 
 }  // namespace

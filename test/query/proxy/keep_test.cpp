@@ -191,6 +191,21 @@ TEST_F(ProxyInASphere, IsHeldByTheWall) {
   }
 }
 
+TEST_F(ProxyInASphere, StartsAnewOnTheOtherSideIfThatOneIsToBeKept) {
+  Random random(44);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Vector3d hand = random.uniform(0.0, 0.04) * random.direction();
+    const Side side = trial % 2 == 0 ? Side::kInside : Side::kUnknown;
+    proxy_.reset();
+    follow(hand, side);
+    EXPECT_FALSE(follow(hand, Side::kInside).is_placed_anew) << "it is there";
+    const ProxyAnswer& out = follow(hand, Side::kOutside);
+    EXPECT_TRUE(out.is_placed_anew);
+    EXPECT_NE(out.state, ProxyStatus::kFree);
+    EXPECT_FALSE(follow(hand, Side::kOutside).is_placed_anew);
+  }
+}
+
 TEST_F(ProxyInASphere, StartsAnewAfterAJumpAndAReset) {
   const Vector3d in(0.0, 0.01, 0.02), out(0.0, 0.0, 0.09);
   follow(in, Side::kUnknown);
