@@ -147,7 +147,8 @@ class Report:
                    'least_distance_m': pair.least, 'tip': tool.tip, 'path_m': path and path.path,
                    **{key: path and getattr(path, key) for key in ('path_sec', 'idle_sec', 'movements', 'sparc', 'ldlj')},
                    'grasps': len(pair.grasps) - len(ends) if pair.grasps else None,
-                   'grasps_let_go': [reason for _, reason in ends].count('') if pair.grasps else None,
+                   **{'grasps_' + how: [reason for _, reason in ends].count(how) if pair.grasps else None
+                      for how in ('opened', 'slipped')},
                    'grasp_sec': sum(duration for duration, _ in ends) or None}
 
     def touch_rows(self):

@@ -1,120 +1,149 @@
 #include "grasp.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#include <tuple>
 #include <utility>
 
 namespace organ_collision {
 namespace {
 
+using Eigen::Isometry3d;
 using Eigen::Vector3d;
+
+/// [m] Contacts that are nearer than this have no line between them: only their normals count.
+constexpr double kSamePlace = 1e-6;
+/// How far jaws that hold may open until they let go.
+constexpr double kLeastOpening = 1e-3, kMostOpening = 2.0;  // [m], [thickness]
+/// From which growth of the distance on the jaws count as opened when tissue is let go.
+constexpr double kOpenedBy = 2e-4, kOpenedTimes = 1.05;  // [m], [1]
 
 double cosine(double degrees) { return std::cos(degrees * std::acos(-1.0) / 180.0); }
 
-/// Whether contacts with these normals and the vector `d` between them [m] oppose each other.
-bool oppose(const Vector3d& first, const Vector3d& second, const Vector3d& d, double least_cosine) {
-  const double length = d.norm();
-  if (length < kSamePlace) return first.dot(second) <= -least_cosine;
-  return first.dot(d) >= least_cosine * length && -second.dot(d) >= least_cosine * length;
+/// Whether both normals point at the other contact. `d`: from the first contact to the second [m],
+/// `length` its length.
+bool oppose(const JawContact& first, const JawContact& second, const Vector3d& d, double length,
+            double least_cosine) {
+  if (length < kSamePlace) return first.normal.dot(second.normal) <= -least_cosine;
+  return first.normal.dot(d) >= least_cosine * length &&
+         -second.normal.dot(d) >= least_cosine * length;
 }
 
-/// The contacts of the second jaw, in boxes within boxes. If each jaw has some 500 contacts, a
-/// comparison of all pairs takes as long as the query that found them, and the tree a tenth of
-/// that.
-class ContactTree {
- public:
-  explicit ContactTree(const std::vector<JawContact>& contacts)
-      : contacts_(contacts), order_(contacts.size()) {
-    std::iota(order_.begin(), order_.end(), std::size_t{0});
-    if (!contacts.empty()) add_node(0, order_.size());
+/// Whether the contacts are on opposite sides of one face, which both jaws touch.
+bool are_on_one_face(const JawContact& first, const JawContact& second) {
+  return first.face == second.face && first.normal.dot(second.normal) < 0.0;
+}
+
+/// Where the contacts would be if their jaws had other poses [m].
+std::vector<Vector3d> carried(const std::vector<JawContact>& contacts,
+                              const std::vector<Isometry3d>& from,
+                              const std::vector<Isometry3d>& to) {
+  std::vector<Vector3d> places;
+  for (const JawContact& contact : contacts) {
+    places.push_back(to[contact.link] * (from[contact.link].inverse() * contact.on_organ));
   }
-
-  /// Replaces `best` by a pair of the contact `from`, whose index is `index`, if there is a better
-  /// one. The pairs with the indices before must have been tried.
-  void improve(const JawContact& from, std::size_t index, double least_cosine,
-               OpposingPair& best) const {
-    for (std::size_t i = 0; i < nodes_.size();) {
-      const Node& node = nodes_[i];
-      if (!may_improve(node, from, least_cosine, best.distance)) {
-        i = node.next;
-        continue;
-      }
-      const std::size_t end = node.is_leaf ? node.end : node.begin;
-      for (std::size_t k = node.begin; k < end; ++k) {
-        const JawContact& to = contacts_[order_[k]];
-        const Vector3d d = to.on_organ - from.on_organ;
-        const OpposingPair pair{index, order_[k], d.norm()};
-        const bool is_better = std::tie(pair.distance, pair.first, pair.second) <
-                               std::tie(best.distance, best.first, best.second);
-        if (is_better && oppose(from.normal, to.normal, d, least_cosine)) best = pair;
-      }
-      ++i;
-    }
-  }
-
- private:
-  static constexpr std::size_t kLeafSize = 8;
-
-  /// The nodes below a node follow it, up to the node with the index `next`.
-  struct Node {
-    Eigen::AlignedBox3d box;
-    std::size_t begin, end;  ///< its places in `order_`
-    std::size_t next = 0;
-    bool is_leaf = true;
-  };
-
-  void add_node(std::size_t begin, std::size_t end) {
-    Eigen::AlignedBox3d box;
-    for (std::size_t k = begin; k < end; ++k) box.extend(contacts_[order_[k]].on_organ);
-    const std::size_t index = nodes_.size();
-    nodes_.push_back({box, begin, end});
-    if (end - begin > kLeafSize) {
-      nodes_[index].is_leaf = false;
-      const std::size_t middle = (begin + end) / 2;
-      Eigen::Index axis = 0;
-      box.sizes().maxCoeff(&axis);
-      const auto at = [&](std::size_t place) { return order_.begin() + static_cast<long>(place); };
-      std::nth_element(at(begin), at(middle), at(end), [&](std::size_t a, std::size_t b) {
-        return contacts_[a].on_organ[axis] < contacts_[b].on_organ[axis];
-      });
-      add_node(begin, middle);
-      add_node(middle, end);
-    }
-    nodes_[index].next = nodes_.size();
-  }
-
-  /// False if no contact in the box is nearer than `distance`, or all are outside the cone around
-  /// the normal of `from`. The slack is for rounding.
-  static bool may_improve(const Node& node, const JawContact& from, double least_cosine,
-                          double distance) {
-    const double slack = 1e-9 * (1.0 + from.on_organ.cwiseAbs().maxCoeff());
-    const double nearest = node.box.exteriorDistance(from.on_organ) - slack;
-    if (nearest > distance) return false;
-    const Vector3d middle = node.box.center() - from.on_organ;
-    const double along =
-        from.normal.dot(middle) + 0.5 * from.normal.cwiseAbs().dot(node.box.sizes()) + slack;
-    return nearest < kSamePlace || along >= least_cosine * nearest;
-  }
-
-  const std::vector<JawContact>& contacts_;
-  std::vector<std::size_t> order_;
-  std::vector<Node> nodes_;
-};
+  return places;
+}
 
 }  // namespace
 
-std::optional<OpposingPair> grasped_pair(const std::vector<JawContact>& first,
-                                         const std::vector<JawContact>& second, bool grasped) {
-  static const double kGrasp = cosine(kGraspAngleDeg), kRelease = cosine(kReleaseAngleDeg);
-  if (first.empty() || second.empty()) return std::nullopt;
+CarriedPair::CarriedPair(const JawsAnswer& answer, const OpposingPair& pair)
+    : thickness_(pair.distance) {
+  const JawContact& first = answer.contacts[0][pair.first];
+  const JawContact& second = answer.contacts[1][pair.second];
+  std::array<Vector3d, 2> places = {first.on_organ, second.on_organ};
+  // The two places on one face count as one, which is in their middle.
+  if (are_on_one_face(first, second)) places.fill(0.5 * (first.on_organ + second.on_organ));
+  links_ = {first.link, second.link};
+  for (std::size_t jaw = 0; jaw < 2; ++jaw) {
+    in_link_[jaw] = answer.links[links_[jaw]].inverse() * places[jaw];
+  }
+}
+
+double CarriedPair::distance(const std::vector<Isometry3d>& links) const {
+  return (links[links_[1]] * in_link_[1] - links[links_[0]] * in_link_[0]).norm();
+}
+
+GraspMemory::Event GraspMemory::follow(const JawsAnswer& now, const GraspLimits& limits) {
+  keep_widest(now, limits.hold);
+  return held_ ? go_on(now, limits) : begin(now, limits);
+}
+
+/// Grasped: a pair opposes in two answers after each other, and does not oppose only because jaws
+/// that have opened are still there.
+GraspMemory::Event GraspMemory::begin(const JawsAnswer& now, const GraspLimits& limits) {
+  pair_ = find_pair(now, limits.gap, false);
+  const bool opposed = std::exchange(opposed_, pair_.has_value()) && now.same_triangles;
+  if (!pair_) opened_.reset();
+  const bool is_open = opened_ && !(opened_->distance(now.links) < 2.0 * opened_->thickness());
+  if (!pair_ || !opposed || is_open) return Event::kNone;
+  opened_.reset();
+  const CarriedPair first(now, *pair_);
+  held_ = Held{first, first, first.distance(now.links), {}};
+  return Event::kGrasped;
+}
+
+/// Released: no pair has opposed for long enough, or the jaws have opened.
+GraspMemory::Event GraspMemory::go_on(const JawsAnswer& now, const GraspLimits& limits) {
+  pair_ = find_pair(now, limits.gap, true);
+  if (pair_ && pair_->distance < held_->thinnest.thickness()) {
+    held_->thinnest = CarriedPair(now, *pair_);
+  }
+  const double width = held_->first.distance(now.links);
+  held_->narrowest = std::min(held_->narrowest, width);
+  const bool is_lost = !pair_ && held_->without && now.stamp - *held_->without >= limits.hold;
+  if (pair_) held_->without.reset();
+  if (!pair_ && !held_->without) held_->without = now.stamp;
+  const CarriedPair thinnest = held_->thinnest;
+  const bool has_opened =
+      thinnest.distance(now.links) > std::max(kMostOpening * thinnest.thickness(), kLeastOpening);
+  if (!is_lost && !has_opened) return Event::kNone;
+  const double least = held_->narrowest;
+  const bool opens = width > least + kOpenedBy && width > kOpenedTimes * least;
+  held_.reset();
+  opposed_ = find_pair(now, limits.gap, false).has_value();
+  if (has_opened && opposed_) opened_ = thinnest;
+  return has_opened || opens ? Event::kOpened : Event::kSlipped;
+}
+
+/// Finds the widest pose since both jaws touch. A short break of touch does not begin it anew.
+void GraspMemory::keep_widest(const JawsAnswer& now, std::chrono::nanoseconds hold) {
+  const bool both_touch = !now.contacts[0].empty() && !now.contacts[1].empty();
+  if (!both_touch && !apart_) apart_ = now.stamp;
+  if (apart_ && now.stamp - *apart_ >= hold) widest_.reset();
+  if (!both_touch) return;
+  apart_.reset();
+  const double width = (now.centers[1] - now.centers[0]).norm();
+  if (!widest_ || width > widest_->width) widest_ = WidestPose{width, now.links};
+}
+
+/// `holds`: the jaws grasp already, so that they let go later than they would begin. So bumps of
+/// the surface do not make a grasp begin and end again and again.
+std::optional<OpposingPair> GraspMemory::find_pair(const JawsAnswer& now, double gap,
+                                                   bool holds) const {
+  static const double kGrasp = cosine(45.0), kRelease = cosine(55.0);
+  const double least_cosine = holds ? kRelease : kGrasp, reach = holds ? 1.5 * gap : gap;
+  const auto& [first, second] = now.contacts;
+  std::vector<Vector3d> first_wide, second_wide;  // Where the contacts were in the widest pose.
+  if (gap > 0.0 && widest_) {
+    first_wide = carried(first, now.links, widest_->links);
+    second_wide = carried(second, now.links, widest_->links);
+  }
   OpposingPair best{0, 0, std::numeric_limits<double>::infinity()};
-  const ContactTree tree(second);
   for (std::size_t i = 0; i < first.size(); ++i) {
-    tree.improve(first[i], i, grasped ? kRelease : kGrasp, best);
+    for (std::size_t k = 0; k < second.size(); ++k) {
+      const bool is_one_face = are_on_one_face(first[i], second[k]);
+      const Vector3d d = second[k].on_organ - first[i].on_organ;
+      const double distance = is_one_face ? 0.0 : d.norm();
+      if (distance >= best.distance) continue;
+      const auto closed_on_it = [&] {
+        return !first_wide.empty() && distance <= reach &&
+               (second_wide[k] - first_wide[i]).norm() > 2.0 * gap;
+      };
+      if (is_one_face || oppose(first[i], second[k], d, distance, least_cosine) || closed_on_it()) {
+        best = {i, k, distance};
+      }
+    }
   }
   return std::isfinite(best.distance) ? std::optional(best) : std::nullopt;
 }

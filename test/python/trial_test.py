@@ -98,7 +98,7 @@ class Scene:
         if organ == 'liver':  # Who touches it also grasps it.
             yield NODE + '/grasps', Grasp(header=event.header, organ=organ, tool='probe', grasp=event.touch, faces_first=[1, 2],
                                           event=Grasp.GRASPED if gap <= 0 else Grasp.RELEASED,
-                                          reason='reset' if gap > 0 and event.touch % 3 == 1 else '',
+                                          reason=('opened', 'reset', 'slipped')[event.touch % 3] if gap > 0 else '',
                                           duration_sec=0.5 * event.duration_sec)
 
 
@@ -212,7 +212,8 @@ def pair_measures(topics, organ):
         lasting += stamps[-1] - seconds(begins[-1].header.stamp)
     grasps = [m for m in topics[NODE + '/grasps'] if m.organ == organ]
     return {'grasps': len([m for m in grasps if m.event == Grasp.GRASPED]) or None,
-            'grasps_let_go': len([m for m in grasps if m.event == Grasp.RELEASED and m.reason == '']) if grasps else None,
+            **{'grasps_' + reason: len([m for m in grasps if m.reason == reason]) if grasps else None
+               for reason in ('opened', 'slipped')},
             'grasp_sec': sum(m.duration_sec for m in grasps if m.event == Grasp.RELEASED) or None,
             'answers': len(answers), 'not_ok_share': np.diff(stamps)[bad].sum() / (stamps[-1] - stamps[0]),
             'touches': len(begins), 'touch_sec': lasting,
@@ -366,7 +367,7 @@ class TrialTest(unittest.TestCase):
             file.write(b'\xff' * 16)
         self.assertIn('damaged before', self.run_report(bag))
         with open(bag, 'wb') as file:  # In a message: no count of contacts is that large.
-            at = whole.index(b'probe', len(whole) // 2) + 9
+            at = whole.index(b'probe' + bytes(4), len(whole) // 2) + 9  # An answer: the tool has no links.
             file.write(whole[:at] + b'\xff' * 60 + whole[at + 60:])
         self.assertIn('damaged before', self.run_report(bag))
         self.assertAlmostEqual(float(self.rows('trial.csv')[0]['answers']) / (SECONDS * RATE), 0.5, delta=0.06)

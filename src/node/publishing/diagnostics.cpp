@@ -75,16 +75,17 @@ void show_times(const std::string& count, const std::string& time,
   status.add(time + ", worst [us]", times.worst * kMicroseconds);
 }
 
-void add_diagnostics(diagnostic_updater::Updater& updater, const ReceivedParts& parts) {
-  updater.add("tools", [parts](auto& status) { show_tools(parts, status); });
-  updater.add("organs", [parts](auto& status) { show_organs(parts, status); });
-  updater.add("messages", [parts](auto& status) { show_messages(parts, status); });
+void add_diagnostics(diagnostic_updater::DiagnosticTaskVector& tasks, const ReceivedParts& parts) {
+  tasks.add("tools", [parts](auto& status) { show_tools(parts, status); });
+  tasks.add("organs", [parts](auto& status) { show_organs(parts, status); });
+  tasks.add("messages", [parts](auto& status) { show_messages(parts, status); });
 }
 
 void show_tools(const ReceivedParts& parts, Status& status) {
   status.summary(DiagnosticStatus::OK, counted(parts.tools.size(), "tool"));
   if (parts.tools.empty()) status.summary(DiagnosticStatus::WARN, kNoTools);
   for (const Tool& tool : parts.tools) show_tool(tool, status);
+  show_failures("doubted", parts.doubted, status);
 }
 
 void show_organs(const ReceivedParts& parts, Status& status) {

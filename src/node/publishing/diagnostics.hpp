@@ -17,7 +17,7 @@
 
 namespace diagnostic_updater {
 // Its header takes a compiler 3 s.
-class Updater;  // NOLINT(cppcoreguidelines-virtual-class-destructor)
+class DiagnosticTaskVector;  // NOLINT(cppcoreguidelines-virtual-class-destructor)
 }  // namespace diagnostic_updater
 
 namespace organ_collision {
@@ -68,6 +68,7 @@ struct NodeCounters {
   std::atomic<std::uint64_t> batches{0};  ///< batches that were answered to the end
   std::atomic<std::uint64_t> motions{0};  ///< motions that were answered, also in the present batch
   FailureLog rejected;                    ///< messages that were refused
+  FailureLog doubted;                     ///< poses that are probably not in metres
   FailureLog failed;                      ///< steps without an answer
   FailureLog incomplete;                  ///< answered steps whose path is not wholly known
   FailureLog late;                        ///< periods in which the node fell behind (LoadWatch)
@@ -75,7 +76,7 @@ struct NodeCounters {
 };
 
 /// The tools of a node, and what the node has received. Every node with organs shows these on
-/// /diagnostics. What the references refer to must outlive the updater.
+/// /diagnostics. What the references refer to must outlive the tasks.
 struct ReceivedParts {
   const double& mesh_timeout_sec;  ///< 0: a mesh is never stale
   const std::vector<Tool>& tools;
@@ -83,6 +84,7 @@ struct ReceivedParts {
   const OrganIntake& intake;
   EventRate& meshes;     ///< accepted shapes of organs
   FailureLog& rejected;  ///< messages that were refused
+  FailureLog& doubted;   ///< poses that are probably not in metres
 };
 
 using Status = diagnostic_updater::DiagnosticStatusWrapper;
@@ -93,7 +95,7 @@ void show_times(const std::string& count, const std::string& time,
                 const DurationStatistics& statistics, Status& status);
 
 /// Adds the tasks "tools", "organs" and "messages".
-void add_diagnostics(diagnostic_updater::Updater& updater, const ReceivedParts& parts);
+void add_diagnostics(diagnostic_updater::DiagnosticTaskVector& tasks, const ReceivedParts& parts);
 
 // What the tasks show. The last one is that of the collision node: what it has answered.
 void show_tools(const ReceivedParts& parts, Status& status);

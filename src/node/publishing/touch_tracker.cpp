@@ -3,10 +3,11 @@
 #include <tf2_eigen/tf2_eigen.h>
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "common/messages/conversions.hpp"
-#include "query/grasp.hpp"
 
 namespace organ_collision {
 namespace {
@@ -37,40 +38,93 @@ bool began_after(const Contact& a, const Contact& b) {
   return std::tie(b.since, b.depth) < std::tie(a.since, a.depth);
 }
 
-/// What a jaw touches at the end of a step.
-struct TouchedByJaw {
-  std::vector<JawContact> contacts;
-  std::vector<std::uint32_t> faces;  ///< each once, ascending
-};
+/// [m] The centre of the box around a link, in the link's frame.
+Eigen::Vector3d box_center(const Link& link) {
+  Eigen::AlignedBox3d box;
+  for (const LinkPart& part : link.parts) {
+    const Eigen::Vector3d half = part.bounds.axes.cwiseAbs() * part.bounds.half_size;
+    box.extend(part.bounds.center - half).extend(part.bounds.center + half);
+  }
+  return box.center();
+}
 
-TouchedByJaw touched_by(const std::vector<std::string>& jaw, const ContactArray& answer) {
-  std::vector<bool> is_jaw;
-  for (const std::string& link : answer.links) {
-    is_jaw.push_back(std::find(jaw.begin(), jaw.end(), link) != jaw.end());
+/// Whether a contact is on the side of its face to which the face does not point. `end`: the face
+/// at the end of the step, `start` at the beginning.
+bool came_from_behind(const Contact& contact, const Triangle& start, const Triangle& end) {
+  Triangle face;  // Where it was when it was touched.
+  for (std::size_t i = 0; i < 3; ++i) face[i] = start[i] + contact.fraction * (end[i] - start[i]);
+  return to_eigen(contact.normal).dot(twice_area(face)) > 0.0;
+}
+
+/// What the answer of a step tells of the jaws. `sides`: those of the last answer OK, and then
+/// those of this one. As long as it is not known whether an organ is closed, it counts as open.
+JawsAnswer jaws_of(const ToolStep& step, std::vector<FaceSide>& sides) {
+  const ContactArray& answer = *step.answer;
+  const Question& question = step.question;
+  const TriangleMesh& organ = *question.shape.mesh;
+  const SurfaceTopology* topology = question.shape.topology();
+  const bool is_closed = topology && topology->is_closed();
+  const std::vector<std::string>& links = question.tool->parameters.links;
+  const auto is_before = [](const FaceSide& a, const FaceSide& b) {
+    return std::tie(a.face, a.link, a.since) < std::tie(b.face, b.link, b.since);
+  };
+  JawsAnswer jaws{std::chrono::nanoseconds(answer.header.stamp.toNSec()),
+                  step.last_answer != nullptr,
+                  {},
+                  {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()},
+                  question.sampled.path.back().links};
+  std::vector<FaceSide> before = std::exchange(sides, {});
+  if (!jaws.same_triangles) before.clear();
+  for (std::size_t jaw = 0; jaw < 2; ++jaw) {
+    const std::vector<std::string>& names = question.tool->parameters.jaws[jaw];
+    const auto is_jaw = [&](std::size_t link) {
+      return std::find(names.begin(), names.end(), links[link]) != names.end();
+    };
+    for (std::size_t link = 0; link < links.size(); ++link) {
+      if (!is_jaw(link)) continue;
+      const Eigen::Vector3d center = jaws.links[link] * box_center(question.tool->links[link]);
+      jaws.centers[jaw] += center / static_cast<double>(names.size());
+    }
+    for (const Contact& contact : answer.contacts) {  // They are sorted by face, then link.
+      const auto link = static_cast<std::size_t>(contact.link);
+      if (!contact.touching || contact.link < 0 || !is_jaw(link)) continue;
+      const Triangle face = organ.triangle(contact.face);
+      FaceSide side{contact.face, contact.link, contact.since};
+      if (is_closed) {
+        side.is_behind = question.shape.surface->is_inward();
+      } else {
+        const auto known = std::lower_bound(before.begin(), before.end(), side, is_before);
+        const bool goes_on = known != before.end() && !is_before(side, *known);
+        const Triangle start = question.before ? question.before->triangle(contact.face) : face;
+        side.is_behind = goes_on ? known->is_behind : came_from_behind(contact, start, face);
+        sides.push_back(side);
+      }
+      const Eigen::Vector3d normal = twice_area(face).normalized();
+      jaws.contacts[jaw].push_back(
+          {link, contact.face, to_eigen(contact.on_organ), side.is_behind ? normal : -normal});
+    }
   }
-  TouchedByJaw touched;
-  for (const Contact& contact : answer.contacts) {  // They are sorted by face.
-    if (!contact.touching || contact.link < 0) continue;
-    if (!is_jaw[static_cast<std::size_t>(contact.link)]) continue;
-    touched.contacts.push_back({to_eigen(contact.on_organ), to_eigen(contact.normal)});
-    const bool is_known = !touched.faces.empty() && touched.faces.back() == contact.face;
-    if (!is_known) touched.faces.push_back(contact.face);
+  std::sort(sides.begin(), sides.end(), is_before);
+  return jaws;
+}
+
+std::vector<std::uint32_t> faces_of(const std::vector<JawContact>& contacts) {
+  std::vector<std::uint32_t> faces;
+  for (const JawContact& contact : contacts) {  // They are sorted by face.
+    if (faces.empty() || faces.back() != contact.face) faces.push_back(contact.face);
   }
-  return touched;
+  return faces;
 }
 
 }  // namespace
 
-void TouchTracker::follow(const ContactArray& answer, Time now, const Jaws& jaws) {
-  const OrganAndTool key{answer.organ, answer.tool};
-  if (answer.status != ContactArray::OK) {
-    if (const auto known = pairs_.find(key); known != pairs_.end()) fail(known->second, now);
-    return;
-  }
-  Pair& pair = pairs_[key];
+void TouchTracker::follow(const ToolStep& step, Time now, double hold_sec) {
+  const ContactArray& answer = *step.answer;
+  if (answer.status != ContactArray::OK) return follow_failure(answer, now);
+  Pair& pair = pairs_[{answer.organ, answer.tool}];
   pair.failing.reset();
   pair.last = answer.header.stamp;
-  if (!jaws[0].empty()) follow_grasp(answer, jaws, pair);
+  if (!step.question.tool->parameters.jaws[0].empty()) follow_jaws(step, hold_sec, pair);
   const std::vector<Contact>& contacts = answer.contacts;
   if (!pair.is_touched && contacts.empty()) return;
   if (!pair.is_touched) begin(answer, pair);
@@ -90,10 +144,12 @@ void TouchTracker::follow(const ContactArray& answer, Time now, const Jaws& jaws
   if (std::none_of(contacts.begin(), contacts.end(), is_touching)) end(pair, pair.last, {});
 }
 
-void TouchTracker::fail(Pair& pair, Time now) {
+void TouchTracker::follow_failure(const ContactArray& answer, Time now) {
+  const auto known = pairs_.find({answer.organ, answer.tool});
+  if (known == pairs_.end()) return;
+  Pair& pair = known->second;
   if (!pair.failing) pair.failing = now;
-  const bool is_long = now - *pair.failing > kLongestFailure;
-  if (pair.is_touched && is_long) end(pair, pair.last, "no answer");
+  if (now - *pair.failing > kLongestFailure) end_for("no answer", pair);
 }
 
 /// A contact that goes on although its touch has ended began before the step. The new touch begins
@@ -115,7 +171,6 @@ void TouchTracker::begin(const ContactArray& answer, Pair& pair) {
 }
 
 void TouchTracker::end(Pair& pair, ros::Time stamp, const std::string& reason) {
-  if (pair.grasp) release(pair, reason);
   TouchEvent event = pair.place;
   event.event = TouchEvent::END;
   event.touch = pair.count;
@@ -128,44 +183,56 @@ void TouchTracker::end(Pair& pair, ros::Time stamp, const std::string& reason) {
   publish_(event);
 }
 
-void TouchTracker::follow_grasp(const ContactArray& answer, const Jaws& jaws, Pair& pair) {
-  TouchedByJaw first = touched_by(jaws[0], answer), second = touched_by(jaws[1], answer);
-  const bool goes_on = pair.grasp.has_value();
-  const auto found = grasped_pair(first.contacts, second.contacts, goes_on);
-  if (!found && !goes_on) return;
-  if (!goes_on) pair.grasp.emplace();
-  Grasp& grasp = *pair.grasp;
-  grasp.header = answer.header;
-  grasp.topology = answer.topology;
-  grasp.faces_first = std::move(first.faces);
-  grasp.faces_second = std::move(second.faces);
-  if (!found) return release(pair, {});  // The message has the last pair that opposed.
-  grasp.on_first = tf2::toMsg(first.contacts[found->first].on_organ);
-  grasp.on_second = tf2::toMsg(second.contacts[found->second].on_organ);
-  grasp.thickness = found->distance;
-  if (goes_on) return;
-  grasp.event = Grasp::GRASPED;
-  grasp.organ = answer.organ;
-  grasp.tool = answer.tool;
-  grasp.grasp = ++pair.grasps;
-  pair.grasped = answer.header.stamp;
-  publish_grasp_(grasp);
+/// Ends the touch and the grasp, if there are any, for another reason than that the tool moved.
+void TouchTracker::end_for(const std::string& reason, Pair& pair) {
+  if (pair.grasp) release(pair, reason);
+  pair.jaws = {};
+  pair.sides.clear();
+  if (pair.is_touched) end(pair, pair.last, reason);
 }
 
-/// The grasp ends with the stamp of the last answer that was OK.
+void TouchTracker::follow_jaws(const ToolStep& step, double hold_sec, Pair& pair) {
+  const ContactArray& answer = *step.answer;
+  const ToolParameters& tool = step.question.tool->parameters;
+  const JawsAnswer jaws = jaws_of(step, pair.sides);
+  const std::chrono::nanoseconds hold(std::llround(1e9 * hold_sec));
+  const GraspMemory::Event event = pair.jaws.follow(jaws, {tool.grasp_gap, hold});
+  if (event == GraspMemory::Event::kGrasped) {
+    Grasp& grasp = pair.grasp.emplace();
+    grasp.event = Grasp::GRASPED;
+    grasp.organ = answer.organ;
+    grasp.tool = answer.tool;
+    grasp.grasp = ++pair.grasps;
+    pair.grasped = pair.last;
+  }
+  if (pair.grasp && pair.jaws.pair()) {
+    const auto [first, second, distance] = *pair.jaws.pair();
+    Grasp& grasp = *pair.grasp;
+    grasp.header = answer.header;
+    grasp.topology = answer.topology;
+    grasp.faces_first = faces_of(jaws.contacts[0]);
+    grasp.faces_second = faces_of(jaws.contacts[1]);
+    grasp.on_first = tf2::toMsg(jaws.contacts[0][first].on_organ);
+    grasp.on_second = tf2::toMsg(jaws.contacts[1][second].on_organ);
+    grasp.thickness = distance;
+  }
+  if (event == GraspMemory::Event::kGrasped) publish_grasp_(*pair.grasp);
+  if (event == GraspMemory::Event::kOpened) release(pair, "opened");
+  if (event == GraspMemory::Event::kSlipped) release(pair, "slipped");
+}
+
+/// The message is about the last answer in which a pair opposed.
 void TouchTracker::release(Pair& pair, const std::string& reason) {
   Grasp& grasp = *pair.grasp;
   grasp.event = Grasp::RELEASED;
-  grasp.duration_sec = std::max(0.0, seconds_between(pair.grasped, pair.last));
+  grasp.duration_sec = std::max(0.0, seconds_between(pair.grasped, grasp.header.stamp));
   grasp.reason = reason;
   publish_grasp_(grasp);
   pair.grasp.reset();
 }
 
 void TouchTracker::end_all(const std::string& reason) {
-  for (auto& [key, pair] : pairs_) {
-    if (pair.is_touched) end(pair, pair.last, reason);
-  }
+  for (auto& [key, pair] : pairs_) end_for(reason, pair);
 }
 
 void TouchTracker::forget_organ(const std::string& organ, const std::string& reason) {
@@ -186,7 +253,7 @@ void TouchTracker::forget(const IsGone& is_gone, const std::string& reason) {
       ++at;
       continue;
     }
-    if (pair.is_touched) end(pair, pair.last, reason);
+    end_for(reason, pair);
     at = pairs_.erase(at);
   }
 }

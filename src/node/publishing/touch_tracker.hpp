@@ -4,7 +4,6 @@
 #include <organ_collision/Grasp.h>
 #include <organ_collision/TouchEvent.h>
 
-#include <array>
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -16,20 +15,30 @@
 #include <utility>
 #include <vector>
 
+#include "node/steps/step.hpp"
+#include "query/grasp.hpp"
+
 namespace organ_collision {
+
+/// The side from which a link first touched a face.
+struct FaceSide {
+  std::uint32_t face;
+  std::int32_t link;
+  ros::Time since;         ///< Contact::since
+  bool is_behind = false;  ///< the side to which the face does not point, by the right-hand rule
+};
 
 /// Finds in the answers of the steps when each tool begins to touch each organ, and when it ceases;
 /// and when its jaws grasp the organ, and let it go.
 ///
 /// A touch begins with the first contact while nothing is touched. It ends with the first answer at
 /// whose end no contact is `touching`. So a tool that touches and leaves within one step begins and
-/// ends a touch. Answers that are not OK change nothing, unless they fail for longer than 1 s. Who
-/// grasps also touches, so what ends a touch also ends a grasp.
+/// ends a touch. Answers that are not OK change nothing, unless they fail for longer than 1 s. A
+/// grasp outlasts the end of a touch, unless that end has a reason.
 class TouchTracker {
  public:
   using Time = std::chrono::steady_clock::time_point;        ///< of the node's own clock
   using OrganAndTool = std::pair<std::string, std::string>;  ///< their names
-  using Jaws = std::array<std::vector<std::string>, 2>;      ///< ToolParameters::jaws
   template <typename Event>
   using Publish = std::function<void(const Event&)>;
 
@@ -37,9 +46,12 @@ class TouchTracker {
   TouchTracker(Publish<TouchEvent> publish, Publish<Grasp> publish_grasp)
       : publish_(std::move(publish)), publish_grasp_(std::move(publish_grasp)) {}
 
-  /// Takes the next answer about an organ and a tool, which is given at `now`. How long answers
+  /// Takes the next step of a tool and an organ, whose answer is given at `now`. How long answers
   /// fail is measured with `now`, because the stamp of a refused message may be any number.
-  void follow(const ContactArray& answer, Time now, const Jaws& jaws = {});
+  /// `hold_sec`: NodeParameters::grasp_hold_sec.
+  void follow(const ToolStep& step, Time now, double hold_sec);
+  /// Takes an answer that is not OK.
+  void follow_failure(const ContactArray& answer, Time now);
   /// Ends the touches and grasps of all tools and organs, with the stamp of their last answer.
   void end_all(const std::string& reason);
   // These end touches, too, and forget the pairs of organ and tool.
@@ -60,9 +72,11 @@ class TouchTracker {
     std::unordered_set<std::uint32_t> faces;  ///< touched faces of the present triangles
     std::size_t earlier_faces = 0;            ///< number of touched faces of earlier triangles
 
+    std::vector<FaceSide> sides = {};  ///< of the touched faces of an open organ, sorted
+    GraspMemory jaws = {};
     std::uint32_t grasps = 0;    ///< number of grasps that have begun
     ros::Time grasped;           ///< when the grasp began
-    std::optional<Grasp> grasp;  ///< how the last answer that was OK found it; none: no grasp
+    std::optional<Grasp> grasp;  ///< as in the last answer in which a pair opposed; none: no grasp
   };
 
   template <typename IsGone>
@@ -70,7 +84,8 @@ class TouchTracker {
   void fail(Pair& pair, Time now);
   void begin(const ContactArray& answer, Pair& pair);
   void end(Pair& pair, ros::Time stamp, const std::string& reason);
-  void follow_grasp(const ContactArray& answer, const Jaws& jaws, Pair& pair);
+  void end_for(const std::string& reason, Pair& pair);
+  void follow_jaws(const ToolStep& step, double hold_sec, Pair& pair);
   void release(Pair& pair, const std::string& reason);
 
   Publish<TouchEvent> publish_;

@@ -89,9 +89,9 @@ bool is_same(const Tool& a, const Tool& b) {
   const auto members = [](const Tool& tool) {
     const ToolParameters& p = tool.parameters;
     return std::tie(p.name, p.trocar_frame, p.tip_frame, p.radius, p.tip_pose_topic,
-                    p.base_pose_topic, p.links, p.jaws, p.robot_description, p.urdf, p.tf_prefix,
-                    p.margin, p.max_near, p.freedom, p.lockstep, p.trocar_offset, p.tip_offset,
-                    tool.fault, tool.fingerprint);
+                    p.base_pose_topic, p.links, p.jaws, p.grasp_gap, p.robot_description, p.urdf,
+                    p.tf_prefix, p.margin, p.max_near, p.freedom, p.lockstep, p.trocar_offset,
+                    p.tip_offset, tool.fault, tool.fingerprint);
   };
   return members(a) == members(b);
 }
@@ -134,7 +134,7 @@ Tool load_tool(const ToolParameters& parameters, const FindText& find_text) {
     const std::vector<RobotLink> links =
         is_file ? read_robot(parameters.urdf, "", parameters.links)
                 : read_robot("-", find_text(parameters.robot_description), parameters.links);
-    tool.fingerprint = std::hash<std::string>()(links_record(links));
+    tool.fingerprint = std::hash<std::string>()(reply_of(links));
     for (std::size_t i = 0; i < links.size(); ++i) {
       tool.joints.push_back(links[i].joint);
       tool.links.push_back(build_link(parameters.links[i], links[i]));
@@ -166,6 +166,22 @@ std::vector<std::string> doubts(const Tool& tool) {
     add(doubt_about_link(parameters.name, link.name, size));
   }
   return found;
+}
+
+std::string doubt_about_place(const ToolParameters& tool, const ShaftAxis& axis,
+                              const std::vector<Eigen::Isometry3d>& links,
+                              const Eigen::Isometry3d& T_organ_tool, const std::string& organ,
+                              const Eigen::AlignedBox3f& box) {
+  double farthest = 0.0;
+  const auto look_at = [&](const Eigen::Vector3d& place) {
+    farthest = std::max(farthest, box.cast<double>().exteriorDistance(T_organ_tool * place));
+  };
+  for (const Eigen::Isometry3d& link : links) look_at(link.translation());
+  if (tool.has_shaft()) {
+    look_at(axis.trocar);
+    look_at(axis.tip);
+  }
+  return doubt_about_distance(tool.name, organ, farthest);
 }
 
 std::optional<std::string> SwapWatch::follow(const ToolParameters& tool, const ToolPath& path,

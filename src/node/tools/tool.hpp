@@ -34,6 +34,13 @@ struct Tool {
 /// the links.
 std::vector<std::string> doubts(const Tool& tool);
 
+/// A sentence if the tool is implausibly far away from the box around an organ; or empty.
+/// `T_organ_tool`: from the frame of the tool's pose.
+std::string doubt_about_place(const ToolParameters& tool, const ShaftAxis& axis,
+                              const std::vector<Eigen::Isometry3d>& links,
+                              const Eigen::Isometry3d& T_organ_tool, const std::string& organ,
+                              const Eigen::AlignedBox3f& box);
+
 /// Finds out whether trocar and tip of a shaft may be swapped: the trocar moves much, and the tip
 /// does not. Free tools and balls are never suspected.
 class SwapWatch {

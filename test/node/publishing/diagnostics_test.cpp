@@ -45,7 +45,8 @@ class DiagnosticsTest : public testing::Test, protected NodeParts {
   NodeCounters counters;
   diagnostic_updater::DiagnosticStatusWrapper status;
   ReceivedParts received{
-      parameters.mesh_timeout_sec, tools, organs, organ_topics, counters.meshes, counters.rejected};
+      parameters.mesh_timeout_sec, tools,           organs, organ_topics, counters.meshes,
+      counters.rejected,           counters.doubted};
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <boost/make_shared.hpp>
 #include <chrono>
 #include <cmath>
 #include <string>
@@ -41,20 +42,31 @@ ContactArray failure(double stamp) {
   return failed;
 }
 
-const TouchTracker::Jaws kJaws = {{{"left"}, {"right", "thumb"}}};
 constexpr std::int32_t kWrist = 0, kLeft = 1, kRight = 2, kThumb = 3;  // indices of links
+constexpr double kHold = 0.05;                                         // [s]
 
-/// A contact of a link at `x` [m], whose normal is turned by `degrees` from the direction of x: of
-/// the thumb and the right jaw, from the opposite direction.
-Contact grip(std::int32_t link, std::uint32_t face, double x, double degrees = 0.0) {
+/// Faces with even numbers point along x, those with odd numbers against it. `is_open`: these are
+/// all. Otherwise there are as many opposite faces at the same places.
+TriangleMesh faces(bool is_open) {
+  std::vector<std::uint32_t> triangles;
+  for (const bool turned : {false, true}) {
+    for (std::uint32_t face = 0; face < 20 && !(turned && is_open); ++face) {
+      const std::uint32_t turn = (face % 2 == 0) == turned ? 1 : 0;
+      triangles.insert(triangles.end(), {0, 1 + turn, 2 - turn});
+    }
+  }
+  return {{0.f, 0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f}, triangles};
+}
+
+/// A contact of a link at `x` [m], which came along x if it is the left one, else against x.
+Contact grip(std::int32_t link, std::uint32_t face, double x) {
   Contact contact;
   contact.link = link;
   contact.face = face;
+  contact.vertices = {0, 1, 2};
   contact.touching = true;
   contact.on_organ.x = x;
-  const double angle = M_PI * degrees / 180.0;
-  contact.normal.x = (link == kLeft ? 1.0 : -1.0) * std::cos(angle);
-  contact.normal.y = std::sin(angle);
+  contact.normal.x = link == kLeft ? 1.0 : -1.0;
   return contact;
 }
 
@@ -110,13 +122,42 @@ class TouchTrackerTest : public testing::Test {
   void follow(const ContactArray& answer) { follow(answer, answer.header.stamp.toSec()); }
   /// `now`: [s] the node's time.
   void follow(const ContactArray& answer, double now) {
+    ToolStep step{0, nullptr};
+    step.answer = boost::make_shared<ContactArray>(answer);
+    const bool same = last_ && last_->topology == answer.topology;
+    step.last_answer = same ? last_ : nullptr;
+    if (answer.status == ContactArray::OK) last_ = step.answer;
+    step.question.tool = {std::shared_ptr<const Tool>(), &tool_};
+    step.question.shape = organ_.latest();
+    step.question.sampled.path = {{0.0, {}, poses_}};
     const TouchTracker::Time time(std::chrono::nanoseconds(std::llround(1e9 * now)));
-    touches_.follow(answer, time, has_jaws_ ? kJaws : TouchTracker::Jaws());
+    touches_.follow(step, time, kHold);
+  }
+  /// Moves the right jaw, which has its thumb, from where it is at first.
+  void open(double x) {
+    for (const std::int32_t link : {kRight, kThumb}) {
+      poses_[static_cast<std::size_t>(link)].translation().x() = x;
+    }
+  }
+  /// Both jaws touch, `x` [m] apart.
+  void hold(double end, double x = 0.003) {
+    follow(answer(end, {grip(kLeft, 1, 0.0), grip(kRight, 2, x)}));
   }
 
   std::vector<TouchEvent> events_;
   std::vector<Grasp> grasps_;
-  bool has_jaws_ = true;
+  Tool tool_ = [] {
+    Tool tool;
+    tool.parameters.links = {"wrist", "left", "right", "thumb"};
+    tool.parameters.jaws = {{{"left"}, {"right", "thumb"}}};
+    tool.parameters.grasp_gap = 0.0;
+    const LinkPart ball = LinkPart::sphere(Eigen::Vector3d::Zero(), 0.001);
+    for (const std::string& link : tool.parameters.links) tool.links.push_back({link, {ball}});
+    return tool;
+  }();
+  std::vector<Eigen::Isometry3d> poses_{4, Eigen::Isometry3d::Identity()};
+  DeformableOrgan organ_{"liver", "liver_frame", faces(true), {}, {}};
+  ContactArrayConstPtr last_;
   TouchTracker touches_{[this](const TouchEvent& event) { events_.push_back(event); },
                         [this](const Grasp& event) { grasps_.push_back(event); }};
 };
@@ -212,76 +253,147 @@ TEST_F(TouchTrackerTest, EndsOfOtherReasonsHaveTheStampOfTheLastAnswer) {
   EXPECT_EQ(told(), Texts{"BEGIN 1 4 of 1"}) << "a forgotten pair begins anew";
 }
 
-TEST_F(TouchTrackerTest, JawsGraspWithinOneAngleAndReleaseBeyondALargerOne) {
-  follow(answer(1.0, {grip(kLeft, 7, 0.0, 46.0), grip(kRight, 9, 0.003, -46.0)}));
+TEST_F(TouchTrackerTest, TwoAnswersBeginAGraspAndTimeOrOpenedJawsEndIt) {
+  hold(1.0);
   EXPECT_EQ(grasps(), Texts());
-  follow(answer(2.0, {grip(kLeft, 7, 0.0, 44.0), grip(kRight, 9, 0.003, -44.0)}));
-  EXPECT_EQ(grasps(), Texts{"GRASPED 1 2 of 7 and 9: 3 mm"});
-  for (const double degrees : {54.0, 30.0, 46.0, 0.0}) {
-    follow(answer(2.5, {grip(kLeft, 7, 0.0, degrees), grip(kRight, 9, 0.002, -degrees)}));
-  }
-  EXPECT_EQ(grasps(), Texts()) << "bumps are no events";
-  follow(answer(3.0, {grip(kLeft, 7, 0.0, 0.0), grip(kRight, 8, 0.002, 56.0)}));
-  EXPECT_EQ(grasps(), Texts{"RELEASED 1 3 of 7 and 8: 2 mm, 1 s"}) << "one normal is enough";
-  follow(answer(4.0, {grip(kLeft, 7, 0.0, 54.0), grip(kRight, 9, 0.003, 54.0)}));
+  hold(1.01);
+  EXPECT_EQ(grasps(), Texts{"GRASPED 1 1.01 of 1 and 2: 3 mm"});
+  follow(answer(1.02));
+  follow(answer(1.06, {grip(kLeft, 1, 0.0)}));
+  hold(1.1, 0.002);
+  EXPECT_EQ(grasps(), Texts()) << "the touch was broken for a short time";
+  EXPECT_EQ(events_.size(), 3u) << "BEGIN, END, BEGIN";
+  follow(answer(1.2));
+  follow(answer(1.24));
   EXPECT_EQ(grasps(), Texts());
-  follow(answer(5.0, {grip(kLeft, 7, 0.0, 0.0), grip(kRight, 9, 0.004, 0.0)}));
-  follow(answer(6.0, {}));
-  EXPECT_EQ(grasps(), (Texts{"GRASPED 2 5 of 7 and 9: 4 mm", "RELEASED 2 6 of and: 4 mm, 1 s"}));
+  follow(answer(1.25));
+  EXPECT_EQ(grasps(), Texts{"RELEASED 1 1.1 of 1 and 2: 2 mm, 0.09 s slipped"});
+  hold(2.0);
+  hold(2.1);
+  hold(2.2, 0.002);
+  open(0.0015);
+  hold(2.3, 0.002);
+  EXPECT_EQ(grasps(), Texts{"GRASPED 2 2.1 of 1 and 2: 3 mm"});
+  open(0.0021);  // From 2 mm to 4.1 mm, while the tissue is still held.
+  hold(2.4, 0.002);
+  EXPECT_EQ(grasps(), Texts{"RELEASED 2 2.4 of 1 and 2: 2 mm, 0.3 s opened"});
+}
+
+TEST_F(TouchTrackerTest, NewTrianglesBeginNoGraspAndEndNone) {
+  const auto cut = [&](std::uint32_t topology, double end) {
+    ContactArray held = answer(end, {grip(kLeft, 1, 0.0), grip(kRight, 2, 0.003)});
+    held.topology = topology;
+    follow(held);
+  };
+  cut(1, 1.0);
+  cut(2, 1.01);
+  EXPECT_EQ(grasps(), Texts());
+  cut(2, 1.02);
+  cut(3, 1.03);
+  follow(failure(1.5));
+  follow(failure(2.4));
+  cut(3, 2.5);
+  EXPECT_EQ(grasps(), Texts{"GRASPED 1 1.02 of 1 and 2: 3 mm"});
 }
 
 TEST_F(TouchTrackerTest, OnlyTheLinksOfTheJawsGraspAndOnlyWhileTheyTouch) {
   const Contact left = grip(kLeft, 1, 0.0), right = grip(kRight, 2, 0.003);
   Contact left_it = left;
   left_it.touching = false;
-  for (const std::vector<Contact>& contacts :
-       {std::vector{left, grip(kWrist, 2, 0.003)},
-        {left, grip(-1, 2, 0.003)},
-        {left_it, right},
-        {grip(kLeft, 1, 0.0, 180.0), grip(kRight, 2, 0.003, 180.0)}}) {
-    follow(answer(1.0, contacts));
+  for (const std::vector<Contact>& contacts : {std::vector{left, grip(kWrist, 2, 0.003)},
+                                               {left, grip(-1, 2, 0.003)},
+                                               {left_it, right},
+                                               {grip(kLeft, 1, 0.003), grip(kRight, 2, 0.0)}}) {
+    for (const double end : {1.0, 1.01}) follow(answer(end, contacts));
   }
-  has_jaws_ = false;
-  follow(answer(2.0, {left, right}));
+  tool_.parameters.jaws = {};
+  for (const double end : {2.0, 2.01}) hold(end);
   EXPECT_EQ(grasps(), Texts());
-  has_jaws_ = true;
-  follow(answer(3.0, {left, grip(kThumb, 1, 0.005), grip(kRight, 1, 0.006), left_it,
-                      grip(kLeft, 4, 0.002), grip(kThumb, 5, 0.009)}));
-  EXPECT_EQ(grasps(), Texts{"GRASPED 1 3 of 1 4 and 1 5: 3 mm"}) << "the nearest pair counts";
+  tool_.parameters.jaws = {{{"left"}, {"right", "thumb"}}};
+  for (const double end : {3.0, 3.01}) {
+    follow(answer(end, {left, grip(kThumb, 2, 0.005), grip(kRight, 3, 0.006), left_it,
+                        grip(kLeft, 4, 0.002), grip(kThumb, 5, 0.009)}));
+  }
+  EXPECT_EQ(grasps(), Texts{"GRASPED 1 3.01 of 1 4 and 2 3 5: 3 mm"}) << "the nearest pair counts";
 }
 
-TEST_F(TouchTrackerTest, AGraspGoesOnAndEndsAsATouchDoes) {
-  ContactArray held = answer(1.0, {grip(kLeft, 1, 0.0), grip(kRight, 2, 0.003)});
-  const auto hold = [&](double end) {
-    held.header.stamp = ros::Time(end);
+TEST_F(TouchTrackerTest, AnOpenOrganKeepsTheSideFromWhichItWasTouched) {
+  Contact left = grip(kLeft, 1, 0.0), right = grip(kRight, 1, 0.001);
+  const auto touch = [&](double end) {
+    ContactArray held = answer(end, {left, right});
+    held.step_start = ros::Time(end - 0.01);
     follow(held);
   };
-  hold(1.0);
-  EXPECT_EQ(grasps(), Texts{"GRASPED 1 1 of 1 and 2: 3 mm"});
-  held.topology = 5;
-  held.contacts[1].face = 9;
-  hold(2.0);
-  follow(failure(2.5));
-  follow(failure(3.4));
-  hold(3.5);
-  EXPECT_EQ(grasps(), Texts()) << "neither a cut nor a short failure ends it";
-  follow(failure(4.0));
-  follow(failure(5.1));
-  EXPECT_EQ(grasps(), Texts{"RELEASED 1 3.5 of 1 and 9: 3 mm, 2.5 s no answer"});
-  hold(6.0);
+  left.since = right.since = ros::Time(1.0);
+  touch(1.0);
+  left.normal.x = -1.0;  // It went through.
+  touch(1.01);
+  ASSERT_EQ(grasps_.size(), 1u);
+  EXPECT_EQ(std::exchange(grasps_, {})[0].thickness, 0.0) << "both sides of one face";
+  left.since = ros::Time(1.015);  // It left, and touched from behind.
+  for (const double end : {1.02, 1.05, 1.08}) touch(end);
+  ASSERT_EQ(grasps_.size(), 1u);
+  EXPECT_EQ(grasps_[0].reason, "slipped");
+}
+
+TEST_F(TouchTrackerTest, AClosedOrganHasItsOwnNormals) {
+  organ_.replace(faces(false), {}, {});
+  organ_.surface()->find();
+  Contact left = grip(kLeft, 1, 0.0), right = grip(kRight, 0, 0.003);
+  left.normal.x = right.normal.x = 0.0;
+  left.normal.y = right.normal.y = 1.0;
+  for (const double end : {1.0, 1.01}) follow(answer(end, {left, right}));
+  EXPECT_EQ(grasps(), Texts{"GRASPED 1 1.01 of 1 and 0: 3 mm"});
+}
+
+TEST_F(TouchTrackerTest, JawsThatCloseOnTissueGraspIt) {
+  organ_.replace(faces(false), {}, {});
+  organ_.surface()->find();
+  tool_.parameters.grasp_gap = 0.002;
+  const auto touch = [&](double end, double x) {  // Both on faces that look alike.
+    open(x);
+    follow(answer(end, {grip(kLeft, 0, 0.0), grip(kRight, 2, x)}));
+  };
+  for (const double end : {1.0, 1.1}) touch(end, 0.0015);
+  EXPECT_EQ(grasps(), Texts()) << "closed jaws poke";
+  for (const double end : {1.2, 1.3}) touch(end, 0.0041);
+  for (const double end : {1.4, 1.5}) touch(end, 0.0021);
+  EXPECT_EQ(grasps(), Texts()) << "they are too wide";
+  follow(answer(1.51));
+  for (const double end : {1.53, 1.6}) touch(end, 0.0019);
+  EXPECT_EQ(grasps(), Texts{"GRASPED 1 1.6 of 0 and 2: 1.9 mm"});
+  for (const double end : {1.7, 1.8}) touch(end, 0.0029);
+  EXPECT_EQ(grasps(), Texts());
+  for (const double end : {1.9, 2.0}) touch(end, 0.0031);
+  EXPECT_EQ(grasps(), Texts{"RELEASED 1 1.8 of 0 and 2: 2.9 mm, 0.2 s opened"});
+}
+
+TEST_F(TouchTrackerTest, EndsWithAReasonEndAGraspAtOnce) {
+  const auto grasp = [&](double end) {
+    hold(end);
+    hold(end + 0.5);
+  };
+  grasp(1.0);
+  follow(answer(1.51));
+  follow(failure(2.0));
+  follow(failure(3.1));
+  EXPECT_EQ(grasps(), (Texts{"GRASPED 1 1.5 of 1 and 2: 3 mm",
+                             "RELEASED 1 1.5 of 1 and 2: 3 mm, 0 s no answer"}));
+  grasp(6.0);
   touches_.end_all("reset");
-  EXPECT_EQ(grasps(),
-            (Texts{"GRASPED 2 6 of 1 and 9: 3 mm", "RELEASED 2 6 of 1 and 9: 3 mm, 0 s reset"}));
   hold(7.0);
+  EXPECT_EQ(grasps(), (Texts{"GRASPED 2 6.5 of 1 and 2: 3 mm",
+                             "RELEASED 2 6.5 of 1 and 2: 3 mm, 0 s reset"}));
+  hold(7.1);
   touches_.forget_other_tools({"hook"}, "tools changed");
   touches_.forget_organ("kidney", "organ removed");
-  EXPECT_EQ(grasps(), Texts{"GRASPED 3 7 of 1 and 9: 3 mm"}) << "a reload keeps it";
+  EXPECT_EQ(grasps(), Texts{"GRASPED 3 7.1 of 1 and 2: 3 mm"}) << "a reload keeps it";
   touches_.forget_organ("liver", "organ removed");
-  EXPECT_EQ(grasps(), Texts{"RELEASED 3 7 of 1 and 9: 3 mm, 0 s organ removed"});
-  hold(8.0);
+  EXPECT_EQ(grasps(), Texts{"RELEASED 3 7.1 of 1 and 2: 3 mm, 0 s organ removed"});
+  grasp(8.0);
   touches_.forget_other_tools({}, "tools changed");
-  EXPECT_EQ(grasps(), (Texts{"GRASPED 1 8 of 1 and 9: 3 mm",
-                             "RELEASED 1 8 of 1 and 9: 3 mm, 0 s tools changed"}));
+  EXPECT_EQ(grasps(), (Texts{"GRASPED 1 8.5 of 1 and 2: 3 mm",
+                             "RELEASED 1 8.5 of 1 and 2: 3 mm, 0 s tools changed"}));
 }
 
 }  // namespace
