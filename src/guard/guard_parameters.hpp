@@ -19,7 +19,7 @@ struct GuardParameters {
   std::string collision_node = "organ_collision";
   double latency = 0.15, watch_time = 0.05;                     ///< [s]
   double deceleration = 1.0;                                    ///< [m/s^2]
-  double error = 0.001;                                         ///< [m]
+  double stop_distance = 0.001;                                 ///< [m]
   double max_speed = 0.1, retreat_speed = 0.005;                ///< [m/s]
   double tissue_speed = 0.05;                                   ///< [m/s]
   double hold_sec = 0.1, diagnostic_period_sec = 1.0;           ///< the latter in wall time
@@ -39,6 +39,7 @@ inline ParameterTable table_of(GuardParameters& p) {
   t.other(
       "tools", "all tools of the node",
       [&p](const ParameterGroup& all) {
+        if (all.has("error")) throw ParameterError("~error has the name ~stop_distance now");
         if (all.has("tools")) p.tools = all.texts("tools");
       },
       "names of the tools that are guarded. Each must have a margin");
@@ -53,14 +54,14 @@ inline ParameterTable table_of(GuardParameters& p) {
   t.number("watch_time", p.watch_time, {0.03, 0.1},
            "[s] a receiver that gets no state for this time stops the tool by itself");
   t.number("deceleration", p.deceleration, {1e-3, 100.0}, "[m/s^2] of a tool that brakes").live();
-  t.number("error", p.error, {0.0, 0.1},
-           "[m] by which a distance may be wrong. A tool that is so near stops")
+  t.number("stop_distance", p.stop_distance, {0.0, 0.1},
+           "[m] A tool that is so near stops. At least as much as a distance may be wrong")
       .live();
   t.number("max_speed", p.max_speed, {1e-3, 10.0},
            "[m/s] of any point of the tool, at the speed_scale 1");
   t.number("tissue_speed", p.tissue_speed, {0.0, 10.0},
            "[m/s] at which tissue comes at most. Assumed where an answer has not the tissue's "
-           "velocity: beyond the margin, and without max_near")
+           "velocity: beyond the margin, and for all faces but the nearest max_near")
       .live();
   t.number("retreat_speed", p.retreat_speed, {0.0, 0.1},
            "[m/s] up to which a tool may move along `retreat` in every stage");
@@ -69,14 +70,14 @@ inline ParameterTable table_of(GuardParameters& p) {
       .live();
   t.other(
       "keep", "outside of all organs",
-      [&p](const ParameterGroup& all) { p.keep = parse_keep(all, p.misspelt); },
+      [&p](const ParameterGroup& all) { p.keep = parse_keep(all); },
       "list of organs in which tools work. Each has organ, its name, and side: inside, outside or "
       "either. Tip and trocar on another side, or on an unknown one, stop the tool. Open organs "
       "that are not in the list have no side");
   const auto read_rows = [&p](const ParameterGroup& all) {
     if (!all.has("touch_allowed")) return;
     for (const ParameterGroup& row :
-         all.groups("touch_allowed", "groups of organ and link", {"organ", "link"}, p.misspelt)) {
+         all.groups("touch_allowed", "groups of organ and link", {"organ", "link"})) {
       p.touch_allowed.insert({row.text("organ"), row.text("link")});
     }
   };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "common/messages/conversions.hpp"
 #include "common/messages/failure_log.hpp"
@@ -12,6 +13,10 @@ namespace organ_collision {
 namespace {
 
 using Eigen::Vector3d;
+
+/// [1] A face that is not listed may be nearer than a face of ContactArray.around in the same
+/// direction, by this factor.
+constexpr double kCovered = 0.8;
 
 /// [m/s] at which the tissue of a near face comes towards the tool.
 double coming(const Contact& near) {
@@ -26,6 +31,11 @@ GuardState nothing_known(ros::Time now) {
   return state;
 }
 
+/// Whether the collision node can tell on which side of a surface the tool is.
+bool has_side(const ToolInfo& tool) {
+  return tool.radius > 0.0 || !tool.tip_frame.empty() || !tool.pose_topic.empty();
+}
+
 std::string link_name(const ContactArray& answer, int link) {
   if (link < 0) return names::kShaftName;
   const auto i = static_cast<std::size_t>(link);
@@ -34,10 +44,16 @@ std::string link_name(const ContactArray& answer, int link) {
 
 }  // namespace
 
-std::string ToolGuard::missing_in(const ToolInfo& tool) {
-  if (tool.margin <= 0.0) return "has no `margin`, so that its distance is not known";
-  if (tool.radius <= 0.0 && tool.tip_frame.empty() && tool.pose_topic.empty()) {
-    return "has no `tip_frame`, so that its side is not known";
+std::string ToolGuard::missing_in(const ToolInfo& tool, const GuardParameters& parameters) {
+  if (tool.margin <= 0.0) {
+    return "has no `margin`, so that its distance is not known; give it one, or list the tools "
+           "that "
+           "are guarded in ~tools";
+  }
+  for (const auto& [organ, side] : parameters.keep) {
+    if (has_side(tool) || side == KeptSide::kEither) continue;
+    return "has no `tip_frame`, so that its side is not known, which ~keep asks for at '" + organ +
+           "'; give it one, keep 'either' there, or list the tools that are guarded in ~tools";
   }
   return {};
 }
@@ -80,19 +96,18 @@ GuardState ToolGuard::decide(GuardTime now) {
   }
   const auto chosen =
       std::min_element(verdicts.begin(), verdicts.end(), [](const Verdict& a, const Verdict& b) {
-        return std::pair(a.state.speed_scale, a.state.distance) <
-               std::pair(b.state.speed_scale, b.state.distance);
+        return std::tuple(a.state.speed_scale, !a.is_listed, a.state.distance) <
+               std::tuple(b.state.speed_scale, !b.is_listed, b.state.distance);
       });
   GuardState state = chosen->state;
   state.tool = tool_.name;
-  for (const Verdict& other : verdicts) {
-    if (!lets_retreat(chosen->state, other)) state.retreat = {};
-  }
+  state.retreat = to_vector(way_out(*chosen, verdicts));
   if (state.speed_scale < 1.0 && state.reason.empty()) {
-    const std::string link = link_name(*organs_.at(state.organ).answer, state.link);
-    const char* least = std::isinf(state.distance) ? "at least " : "";
-    state.reason = concatenate("organ '", state.organ, "': ", link, " is ", least, chosen->bound,
-                               " m away, error is ", parameters_.error,
+    const std::string what = chosen->is_listed
+                                 ? link_name(*organs_.at(state.organ).answer, state.link) + " is "
+                                 : "tissue that is not listed is at least ";
+    state.reason = concatenate("organ '", state.organ, "': ", what, chosen->bound,
+                               " m away, stop_distance is ", parameters_.stop_distance,
                                " m, and the tissue comes at ", chosen->tissue, " m/s");
   }
   hold(state, now.steady);
@@ -101,7 +116,7 @@ GuardState ToolGuard::decide(GuardTime now) {
 }
 
 /// Adds what an organ allows: one verdict if its answer cannot be trusted, or else one for each of
-/// the nearest places of the links that must not touch, that of the clearance first.
+/// the places that are listed of links that must not touch, and one for all other tissue.
 void ToolGuard::judge(const std::string& name, const Organ& organ, GuardTime now,
                       std::vector<Verdict>& verdicts) const {
   GuardState of_all = nothing_known(now.ros);
@@ -117,44 +132,56 @@ void ToolGuard::judge(const std::string& name, const Organ& organ, GuardTime now
   const ContactArray& answer = *organ.answer;
   const Clearance& clearance = answer.clearance;
   const bool is_inside_out = is_wrong(name, organ, answer.placement.tip);
-  const auto add = [&](const auto& place, const Vector3d& normal, double distance, double tissue) {
+  const bool is_known = clearance.state == Clearance::KNOWN;
+  const bool counts = is_known && !may_touch(answer, clearance.link);
+  const auto begin = verdicts.size();
+  double fastest = 0.0, tissue = parameters_.tissue_speed;
+  for (const std::vector<Contact>* places : {&answer.near, &answer.around}) {
+    for (const Contact& near : *places) {
+      fastest = std::max(fastest, coming(near));
+      if (near.face == clearance.face && near.link == clearance.link) tissue = coming(near);
+    }
+  }
+  const auto scale = [&](double allowed) {
+    return reason.empty() ? std::min(1.0, allowed / parameters_.max_speed) : 0.0;
+  };
+  const auto add = [&](const auto& place, const Vector3d& normal, double distance, double tissue,
+                       double closing_speed) {
     const double allowed = allowed_speed(distance, tissue, now.steady);
-    verdicts.push_back({of_all, distance, tissue, is_inside_out ? 0.0 : allowed});
-    GuardState& state = verdicts.back().state;
-    if (reason.empty()) state.speed_scale = std::min(1.0, allowed / parameters_.max_speed);
+    GuardState state = of_all;
+    state.speed_scale = scale(allowed);
     state.link = place.link;
     state.on_tool = place.on_tool;
     state.on_organ = place.on_organ;
     state.distance = distance;
-    state.closing_speed = tissue;
-    state.retreat = to_vector(retreat(name, organ, normal));
+    state.closing_speed = closing_speed;
+    const double approach = allowed_speed(kCovered * distance, fastest, now.steady);
+    verdicts.push_back(
+        {state, distance, tissue, is_inside_out ? 0.0 : approach, retreat(name, organ, normal)});
   };
-  const bool is_known = clearance.state == Clearance::KNOWN;
-  const bool counts = is_known && !may_touch(answer, clearance.link);
   if (counts) {
-    double tissue = parameters_.tissue_speed;
-    for (const Contact& near : answer.near) {
-      if (near.face == clearance.face && near.link == clearance.link) tissue = coming(near);
-    }
     const bool has_normal = clearance.normal_defined;
     add(clearance, has_normal ? to_eigen(clearance.normal) : Vector3d(0, 0, 0), clearance.distance,
-        tissue);
-    verdicts.back().state.closing_speed = clearance.closing_speed;
+        tissue, clearance.closing_speed);
     if (is_inside_out) return;
   }
-  for (const Contact& near : answer.near) {
-    if (!may_touch(answer, near.link)) add(near, to_eigen(near.normal), -near.depth, coming(near));
+  for (const std::vector<Contact>* places : {&answer.near, &answer.around}) {
+    for (const Contact& near : *places) {
+      if (may_touch(answer, near.link)) continue;
+      add(near, to_eigen(near.normal), -near.depth, coming(near), coming(near));
+    }
   }
-  if (counts) return;
-  // A link that may touch is nearest, or nothing is. The other links may be as near as the last
-  // face that is listed, unless all faces within the margin are.
+  // Tissue that is not listed is not nearer than the last near face, or is beyond the margin. Up to
+  // around_up_to, it is in the direction of a face of `around`.
   double bound = clearance.margin;
   if (is_known && answer.near.empty()) bound = clearance.distance;
   if (answer.near_more && !answer.near.empty()) bound = -answer.near.back().depth;
-  Contact beyond;
-  beyond.link = -1;
-  add(beyond, Vector3d(0, 0, 0), bound, parameters_.tissue_speed);
-  verdicts.back().state.distance = kUnlimited;
+  const double assumed = std::max(fastest, parameters_.tissue_speed);
+  Verdict other = verdicts.size() > begin ? verdicts[begin] : Verdict{of_all};
+  other.state.speed_scale = scale(allowed_speed(bound, assumed, now.steady));
+  verdicts.push_back({other.state, bound, assumed,
+                      allowed_speed(std::max(bound, answer.around_up_to), fastest, now.steady),
+                      Vector3d::Zero(), false});
 }
 
 /// Why an answer says nothing that a tool may trust. Empty: it may.
@@ -198,6 +225,7 @@ bool ToolGuard::is_wrong(const std::string& name, const Organ& organ, std::uint8
   const auto row = parameters_.keep.find(name);
   const KeptSide kept = row == parameters_.keep.end() ? KeptSide::kOutside : row->second;
   if (kept == KeptSide::kEither || side == ToolPlacement::ON_SURFACE) return false;
+  if (!has_side(tool_) && row == parameters_.keep.end()) return false;
   if (side == ToolPlacement::UNKNOWN) return organ.closed || row != parameters_.keep.end();
   return (side == ToolPlacement::INSIDE) != (kept == KeptSide::kInside);
 }
@@ -219,20 +247,51 @@ Vector3d ToolGuard::retreat(const std::string& name, const Organ& organ,
   return placement.tip == ToolPlacement::UNKNOWN ? Vector3d::Zero() : normal;
 }
 
-/// Whether the tool may move along `chosen.retreat` as far as another place is concerned: it is far
-/// enough, or its own way out has the same direction.
-bool ToolGuard::lets_retreat(const GuardState& chosen, const Verdict& other) const {
-  const Vector3d way = to_eigen(other.state.retreat);
-  return other.approach >= parameters_.retreat_speed ||
-         (chosen.header.frame_id == other.state.header.frame_id && !way.isZero(0.0) &&
-          to_eigen(chosen.retreat).dot(way) >= 0.0);
+/// The direction in which the tool may move: it leads away from each place that is too near for
+/// retreat_speed, or at least no nearer, and among these directions it is that of the nearest of
+/// the places that decide. Zero: there is none.
+Vector3d ToolGuard::way_out(const Verdict& chosen, const std::vector<Verdict>& verdicts) const {
+  // [1] The cosine that is aimed at. An approximate solution then has cosines above zero.
+  constexpr double kAim = 0.02;
+  constexpr int kSweeps = 100;
+  const Verdict* nearest = &chosen;
+  for (const Verdict& other : verdicts) {
+    if (!chosen.is_listed && other.is_listed && other.state.organ == chosen.state.organ &&
+        (!nearest->is_listed || other.bound < nearest->bound)) {
+      nearest = &other;
+    }
+  }
+  std::vector<Vector3d> ways;
+  for (const Verdict& other : verdicts) {
+    if (other.approach >= parameters_.retreat_speed) continue;
+    const bool is_same_frame = other.state.header.frame_id == nearest->state.header.frame_id;
+    if (!is_same_frame || other.way.isZero(0.0)) return Vector3d::Zero();
+    ways.push_back(other.way);
+  }
+  const auto leads_out = [&](const Vector3d& way) {
+    return std::all_of(ways.begin(), ways.end(),
+                       [&](const Vector3d& its) { return way.dot(its) >= 0.0; });
+  };
+  Vector3d way = nearest->way;
+  if (leads_out(way)) return way;
+  // Hildreth's method: the nearest vector that has a part along each of `ways`.
+  std::vector<double> shares(ways.size());
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+      const double share = std::max(0.0, shares[i] + kAim - way.dot(ways[i]));
+      way += (share - shares[i]) * ways[i];
+      shares[i] = share;
+    }
+  }
+  way.normalize();
+  return way.allFinite() && leads_out(way) ? way : Vector3d::Zero();
 }
 
 /// [m/s] the speed from which the tool stops in time, less that of the tissue. See GuardState.msg,
 /// and the class.
 double ToolGuard::allowed_speed(double distance, double tissue, double now) const {
   const double a = parameters_.deceleration, latency = parameters_.latency;
-  const double room = distance - parameters_.error;
+  const double room = distance - parameters_.stop_distance;
   if (!(room > 0.0)) return 0.0;
   // [m] how far tool and tissue come together until the tool has stopped from this speed
   const auto way = [&](double speed) {

@@ -34,8 +34,9 @@ class ToolGuard {
   explicit ToolGuard(const GuardParameters& parameters, ToolInfo tool)
       : parameters_(parameters), tool_(std::move(tool)) {}
 
-  /// What a guard needs and this tool has not, as a sentence. Empty: it has all.
-  static std::string missing_in(const ToolInfo& tool);
+  /// What a guard with these parameters needs and this tool has not, with the cure, as a sentence.
+  /// Empty: it has all.
+  static std::string missing_in(const ToolInfo& tool, const GuardParameters& parameters);
 
   const ToolInfo& tool() const { return tool_; }
   void set_tool(ToolInfo tool) { tool_ = std::move(tool); }
@@ -64,9 +65,11 @@ class ToolGuard {
   /// What one place of the tool allows, or one organ. An empty reason is filled in later.
   struct Verdict {
     GuardState state;
-    double bound = 0.0;     ///< [m] the tool is not nearer to tissue
-    double tissue = 0.0;    ///< [m/s] at which the tissue comes
-    double approach = 0.0;  ///< [m/s] at which the tool may approach the place
+    double bound = 0.0;                  ///< [m] the tool is not nearer to tissue
+    double tissue = 0.0;                 ///< [m/s] at which the tissue comes
+    double approach = 0.0;               ///< [m/s] at which the tool may approach the place
+    Eigen::Vector3d way{0.0, 0.0, 0.0};  ///< the way out of this place alone; zero: not known
+    bool is_listed = true;               ///< false: tissue that the answer does not list
   };
 
   void judge(const std::string& name, const Organ& organ, GuardTime now,
@@ -77,7 +80,7 @@ class ToolGuard {
   bool may_touch(const ContactArray& answer, int link) const;
   Eigen::Vector3d retreat(const std::string& name, const Organ& organ,
                           const Eigen::Vector3d& normal) const;
-  bool lets_retreat(const GuardState& chosen, const Verdict& other) const;
+  Eigen::Vector3d way_out(const Verdict& chosen, const std::vector<Verdict>& verdicts) const;
   double allowed_speed(double distance, double tissue, double now) const;
   void hold(GuardState& state, double now);
   void note_sent(double speed, double now);

@@ -6,14 +6,18 @@
 #include <organ_collision/ListTools.h>
 #include <ros/names.h>
 #include <ros/ros.h>
+#include <tf2/buffer_core.h>
+#include <tf2/exceptions.h>
 #include <tf2_msgs/TFMessage.h>
-#include <tf2_ros/transform_listener.h>
 
 #include <chrono>
+#include <set>
+#include <utility>
 
 #include "common/messages/checked_messages.hpp"
 #include "common/messages/conversions.hpp"
 #include "common/program/program.hpp"
+#include "geometry/concatenate.hpp"
 #include "organ_collision/ros/names.hpp"
 #include "tool_guard.hpp"
 
@@ -27,6 +31,7 @@ constexpr std::uint32_t kAnswerQueue = 1000;
 constexpr double kWatchPeriod = 0.005;   ///< [s] between two looks whether a state is due
 constexpr double kLongestWait = 0.0175;  ///< [s] after which it is: 50 times a second
 constexpr double kListPeriod = 0.5;      ///< [s] between two questions for organs and tools
+constexpr std::uint32_t kFewNear = 8;    ///< a smaller max_near hides tissue that comes fast
 
 /// scripts/make_reference makes doc/reference/nodes.md of it, and a test compares both.
 ProgramHelp tool_guard_help() {
@@ -67,7 +72,6 @@ class GuardNode {
       : node_(on_queue(node, queue_)),
         private_node_(on_queue(private_node, queue_)),
         table_(load_parameters(parameters_, private_node)),
-        transforms_listener_(transforms_, node),
         collision_node_(node_.resolveName(parameters_.collision_node)),
         diagnostics_(node_, private_node_, parameters_.diagnostic_period_sec),
         live_parameters_(on_queue(private_node, background_.queue()), table_,
@@ -84,7 +88,13 @@ class GuardNode {
     answers_ = subscribe_checked<ContactArray>(
         node_, ros::names::append(collision_node_, names::kContacts), kAnswerQueue,
         [this](const auto& event) { take(event); }, rejected_);
-    diagnostics_.updater().add("tools", this, &GuardNode::diagnose);
+    for (const bool resting : {false, true}) {
+      tf_.push_back(subscribe_checked<tf2_msgs::TFMessage>(
+          node_, resting ? "/tf_static" : "/tf", kAnswerQueue,
+          [this, resting](const auto& event) { take(*event.getConstMessage(), resting); },
+          rejected_));
+    }
+    diagnostics_.tasks().add("tools", this, &GuardNode::diagnose);
     live_parameters_.advertise();
     watch_ = node_.createWallTimer(ros::WallDuration(kWatchPeriod), [this](const auto&) {
       const GuardTime now = present();
@@ -130,6 +140,20 @@ class GuardNode {
     if (tool != tools_.end()) send(tool->second, now);
   }
 
+  /// This is not tf2_ros::TransformListener, which ends the process if the clock jumps back from
+  /// beyond 2^31 s.
+  void take(const tf2_msgs::TFMessage& message, bool resting) {
+    const ros::Time now = ros::Time::now();
+    if (now < std::exchange(transformed_, now)) transforms_.clear();
+    for (const geometry_msgs::TransformStamped& transform : message.transforms) {
+      try {
+        transforms_.setTransform(transform, kProgram, resting);
+      } catch (const std::runtime_error& error) {  // from ros::Time, for extreme stamps
+        rejected_.add("transform", error.what());
+      }
+    }
+  }
+
   void send(Guarded& tool, GuardTime now) {
     tool.last = tool.decide(now);
     tool.sent = now.steady;
@@ -154,7 +178,7 @@ class GuardNode {
     try {
       return (place(tool.trocar_frame, tool.trocar_offset) - place(tool.tip_frame, tool.tip_offset))
           .normalized();
-    } catch (const tf2::TransformException&) {  // also if the tool has no such frame
+    } catch (const std::runtime_error&) {  // also if the tool has no such frame
       return {0, 0, 0};
     }
   }
@@ -179,8 +203,10 @@ class GuardNode {
             bool has_placement) {
     if (!is_checked_) check(tools, has_placement);
     is_checked_ = true;
+    few_near_.clear();
     for (const ToolInfo& tool : tools) {
       if (!is_guarded(tool)) continue;
+      note_few_near(tool);
       tools_.try_emplace(tool.name, parameters_, tool).first->second.set_tool(tool);
     }
     for (auto& [name, tool] : tools_) tool.set_organs(organs, asked);
@@ -193,13 +219,21 @@ class GuardNode {
     }
   }
 
+  void note_few_near(const ToolInfo& tool) {
+    if (tool.max_near >= kFewNear) return;
+    few_near_.push_back(concatenate(collision_node_, "/tools: '", tool.name, "' has max_near ",
+                                    tool.max_near, "; give it ", kFewNear,
+                                    " or more, so that the guard sees how fast tissue comes"));
+    if (few_near_known_.insert(few_near_.back()).second) ROS_WARN("%s", few_near_.back().c_str());
+  }
+
   /// Throws ParameterError if the guard cannot watch the tools.
   void check(const std::vector<ToolInfo>& tools, bool has_placement) {
     std::vector<std::string> names, links{names::kShaftName};
     for (const ToolInfo& tool : tools) {
       names.push_back(tool.name);
       links.insert(links.end(), tool.links.begin(), tool.links.end());
-      const std::string missing = is_guarded(tool) ? ToolGuard::missing_in(tool) : "";
+      const std::string missing = is_guarded(tool) ? ToolGuard::missing_in(tool, parameters_) : "";
       if (missing.empty()) continue;
       throw ParameterError(collision_node_ + "/tools: '" + tool.name + "' " + missing);
     }
@@ -233,6 +267,7 @@ class GuardNode {
     }
     status.add("lost answers", lost_);
     for (const std::string& sentence : unknown_) status.mergeSummary(1, sentence);
+    for (const std::string& sentence : few_near_) status.mergeSummary(1, sentence);
     for (const std::string& sentence : parameters_.misspelt) status.mergeSummary(1, sentence);
     show_failures("rejected", rejected_, status);
   }
@@ -242,17 +277,20 @@ class GuardNode {
   ros::NodeHandle node_, private_node_;
   GuardParameters parameters_;
   const ParameterTable table_;
-  tf2_ros::Buffer transforms_;
-  const tf2_ros::TransformListener transforms_listener_;
+  tf2::BufferCore transforms_;
+  ros::Time transformed_;  ///< when the last transform came
   const std::string collision_node_;
   FailureLog rejected_, stops_;
   std::map<std::string, Guarded> tools_;
-  std::vector<std::string> unknown_;  ///< sentences about unknown names
+  std::vector<std::string> unknown_;   ///< sentences about unknown names
+  std::vector<std::string> few_near_;  ///< sentences about tools with few near faces
+  std::set<std::string> few_near_known_;
   bool is_checked_ = false;
   std::map<std::string, std::uint32_t> numbers_;  ///< of the last answers, by sender
   std::uint64_t lost_ = 0;                        ///< answers
   ros::Publisher states_;
   ros::Subscriber answers_;
+  std::vector<ros::Subscriber> tf_;
   ros::WallTimer watch_, ask_;
   Diagnostics diagnostics_;
   LiveParameters live_parameters_;

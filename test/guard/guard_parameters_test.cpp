@@ -37,9 +37,11 @@ TEST(GuardParameters, RowsAreTaken) {
             (std::set<std::pair<std::string, std::string>>{{"liver", "shaft"}}));
   EXPECT_TRUE(taken.misspelt.empty());
   all["touch_allowed"][0]["links"] = "jaw";
-  const auto misspelt = parse_parameters<GuardParameters>(all).misspelt;
-  ASSERT_EQ(misspelt.size(), 1u);
-  expect_words(misspelt[0], {"~touch_allowed[0]/links", "'link'"});
+  expect_words(refusal_of<GuardParameters>("touch_allowed", all["touch_allowed"]),
+               {"~touch_allowed[0]/links is no parameter", "'link'"});
+  all["keep"][0]["sides"] = "inside";
+  expect_words(refusal_of<GuardParameters>("keep", all["keep"]),
+               {"~keep[0]/sides is no parameter", "'side'"});
 }
 
 // The receiver of the states has these, too. Were one changed here alone, the receiver would move
@@ -60,6 +62,7 @@ TEST(GuardParameters, WhatTheReceiverHasAsWellIsNotLive) {
 
 TEST(GuardParameters, IllegalOnesAreNamedWithTheirValue) {
   const auto refusal = refusal_of<GuardParameters>;
+  expect_words(refusal("error", 0.002), {"~error", "~stop_distance"});
   expect_words(refusal("tools", "hook"), {"~tools is the text 'hook'"});
   expect_words(refusal("keep", row("side", "left")), {"~keep[0]/side is 'left'"});
   expect_words(refusal("keep", row("side", "inside", "")), {"~keep[0]/organ is ''"});

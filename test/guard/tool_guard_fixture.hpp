@@ -30,7 +30,7 @@ class ToolGuardTest : public testing::Test {
     tool.name = "hook";
     tool.radius = 0.004;
     tool.margin = 0.05;
-    tool.max_near = 1;
+    tool.max_near = 8;
     return tool;
   }
 
@@ -96,7 +96,7 @@ class ToolGuardTest : public testing::Test {
   /// [m/s] the speed of GuardState.msg
   double formula(double distance) const {
     const double a = parameters_.deceleration, T = parameters_.latency;
-    return std::sqrt(a * a * T * T + 2 * a * (distance - parameters_.error)) - a * T;
+    return std::sqrt(a * a * T * T + 2 * a * (distance - parameters_.stop_distance)) - a * T;
   }
 
   double time_ = 10.0;  ///< [s] of the steady clock

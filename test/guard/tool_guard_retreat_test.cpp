@@ -33,6 +33,7 @@ TEST_F(ToolGuardRetreatTest, TheWayOut) {
   EXPECT_EQ(way([](auto& a) { a.unresolved = 1; }), none);
   ToolInfo free = tool_;
   free.radius = 0.0;
+  free.tip_frame = "tip";
   guard_.set_tool(free);
   EXPECT_EQ(way([](auto&) {}), -up);
   EXPECT_EQ(way(inside), up) << "towards the nearest place, and through";
@@ -60,16 +61,20 @@ TEST_F(ToolGuardRetreatTest, AnotherOrganMayCloseTheWayOut) {
 }
 
 TEST_F(ToolGuardRetreatTest, TheSameOrganMayCloseTheWayOut) {
-  const auto beside = [&](double distance, double z) {
+  const auto beside = [&](double distance, double z, double x = 0.6) {
     return way([&](ContactArray& a) {
       Contact& wall = a.near.emplace_back(a.near[0]);
       wall.face = 8;
       wall.depth = -distance;
-      wall.normal = vector(0.6, 0, z);
+      wall.normal = vector(x, 0, z);
     });
   };
   const Vector3d down(0, 0, -1), none(0, 0, 0);
-  EXPECT_EQ(beside(0.0012, -0.8), none) << "the opposite wall of a narrow place is near";
+  const Vector3d out = beside(0.0012, -0.8);
+  EXPECT_NEAR(out.norm(), 1.0, 1e-12);
+  EXPECT_GT(out.z() * -1.0, 0.0) << "the opposite wall is near: out between both";
+  EXPECT_GT(out.dot(Vector3d(-0.6, 0.0, 0.8)), 0.0);
+  EXPECT_EQ(beside(0.0012, -1.0, 0.0), none) << "no way leads from both";
   EXPECT_EQ(beside(0.02, -0.8), down) << "it is far";
   EXPECT_EQ(beside(0.0012, 0.8), down) << "the same wall";
 }

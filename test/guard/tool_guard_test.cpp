@@ -234,15 +234,59 @@ TEST_F(ToolGuardTest, TheScaleFallsAtOnceAndRisesAfterATime) {
 }
 
 TEST_F(ToolGuardTest, AToolMissesWhatTheGuardNeeds) {
-  EXPECT_EQ(ToolGuard::missing_in(tool_), "");
+  GuardParameters p;
+  EXPECT_EQ(ToolGuard::missing_in(tool_, p), "");
   ToolInfo tool = tool_;
   tool.margin = 0.0;
-  expect_words(ToolGuard::missing_in(tool), {"`margin`"});
+  expect_words(ToolGuard::missing_in(tool, p), {"`margin`", "~tools"});
   tool = tool_;
   tool.radius = 0.0;
-  expect_words(ToolGuard::missing_in(tool), {"`tip_frame`"});
+  EXPECT_EQ(ToolGuard::missing_in(tool, p), "") << "`keep` says nothing";
+  p.keep = {{"net", KeptSide::kEither}};
+  EXPECT_EQ(ToolGuard::missing_in(tool, p), "");
+  p.keep["colon"] = KeptSide::kInside;
+  expect_words(ToolGuard::missing_in(tool, p), {"`tip_frame`", "'colon'", "either", "~tools"});
   tool.tip_frame = "tip";
-  EXPECT_EQ(ToolGuard::missing_in(tool), "");
+  EXPECT_EQ(ToolGuard::missing_in(tool, p), "");
+}
+
+TEST_F(ToolGuardTest, AToolWithoutATipIsGuardedWithoutItsSide) {
+  ToolInfo links = tool_;
+  links.radius = 0.0;
+  guard_.set_tool(links);
+  list({organ("liver")});
+  ContactArray a = answer(0.04);
+  a.placement.tip = a.placement.trocar = ToolPlacement::UNKNOWN;
+  EXPECT_EQ(after(a).stage, GuardState::CLEAR);
+  a = answer(0.0005);
+  a.placement.tip = ToolPlacement::UNKNOWN;
+  const GuardState near = after(a);
+  expect_stop(near, {"0.0005 m"});
+  EXPECT_EQ(near.retreat.z, -1.0);
+  rest();
+  parameters_.keep = {{"liver", KeptSide::kOutside}};
+  a = answer(0.04);
+  a.placement.tip = ToolPlacement::UNKNOWN;
+  expect_stop(after(a), {"unknown"});
+}
+
+TEST_F(ToolGuardTest, WhatIsNotListedCountsWhereTheListEnds) {
+  list({organ("liver")});
+  ContactArray a = answer(0.0015);
+  a.near_more = 1;
+  const GuardState state = after(a);
+  expect_stop(state, {"not listed", "at least 0.0015 m", "0.05 m/s"});
+  EXPECT_EQ(state.retreat.z, 0.0) << "it may be in any direction";
+  a.around = a.near;
+  a.around_up_to = 0.015;
+  EXPECT_EQ(after(a).retreat.z, -1.0);
+  a.around_up_to = 0.0;
+  EXPECT_EQ(after(a).retreat.z, 0.0);
+  parameters_.tissue_speed = 0.0;
+  rest();
+  a = answer(0.005);
+  a.near_more = 1;
+  EXPECT_NEAR(after(a).speed_scale, formula(0.005) / 0.1, 1e-9);
 }
 
 }  // namespace

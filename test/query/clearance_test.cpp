@@ -184,6 +184,31 @@ std::size_t expect_near(const CollisionResult& result, const CollisionRequest& r
   return result.near.size();
 }
 
+/// Each face up to a distance is in `around`, or behind one that is.
+std::size_t expect_around(const CollisionResult& result, const CollisionRequest& request) {
+  if (result.around_up_to == 0.0) return 0;
+  const double distance = result.clearance.distance;
+  const bool is_known = result.clearance.state == ClearanceState::kKnown;
+  EXPECT_EQ(result.around_up_to,
+            is_known ? std::min(request.margin, std::max(0.0, distance) + 0.01) : request.margin);
+  const std::vector<double> distances = distances_at_end(request);
+  for (std::uint32_t face = 0; face < distances.size(); ++face) {
+    if (distances[face] > result.around_up_to - kMoving) continue;
+    const Triangle corners = request.organ->triangle(face);
+    const auto covers = [&](const FaceContact& at) {
+      const double room = -0.2 * std::max(0.0, -at.depth) - kMoving;
+      return at.face == face ||
+             project_onto(at.normal, corners).low >= at.normal.dot(at.on_organ) + room;
+    };
+    EXPECT_TRUE(std::any_of(result.around.begin(), result.around.end(), covers)) << face;
+  }
+  for (const FaceContact& at : result.around) {
+    EXPECT_GE(-at.depth, distances[at.face] - kMoving);
+    EXPECT_LE(-at.depth, result.around_up_to + kMoving);
+  }
+  return result.around.size();
+}
+
 bool is_least_on_its_only_leg(const CollisionResult& result, const CollisionRequest& request) {
   return request.mode == QueryMode::kSwept && request.path.size() <= 2 && result.contacts.empty() &&
          result.clearance.state == ClearanceState::kKnown;
@@ -193,7 +218,7 @@ TEST(Clearance, AndNearFacesAreThoseOfBruteForceUpToTheMargin) {
   Random random(1);
   CollisionQuery query;
   CollisionResult result;
-  std::size_t apart = 0, beyond = 0, touched = 0, near = 0, at_fraction = 0;
+  std::size_t apart = 0, beyond = 0, touched = 0, near = 0, around = 0, at_fraction = 0;
   for (int i = 0; i < 400 && !testing::Test::HasFailure(); ++i) {
     ClearanceScene scene(random);
     CollisionRequest& request = scene.request;
@@ -216,6 +241,7 @@ TEST(Clearance, AndNearFacesAreThoseOfBruteForceUpToTheMargin) {
       ++at_fraction;
     }
     near += expect_near(result, request, measured);
+    around += expect_around(result, request);
     apart += result.contacts.empty();
     touched += !result.contacts.empty();
     beyond += result.clearance.state == ClearanceState::kBeyondMargin;
@@ -224,6 +250,7 @@ TEST(Clearance, AndNearFacesAreThoseOfBruteForceUpToTheMargin) {
   EXPECT_GT(beyond, 15U);
   EXPECT_GT(touched, 50U);
   EXPECT_GT(near, 2000U);
+  EXPECT_GT(around, 2000U);
   EXPECT_GT(at_fraction, 20U);
 }
 
@@ -264,6 +291,7 @@ TEST(Clearance, NearFacesOfFineOrgansAreThoseOfBruteForce) {
     const FineScene scene(random);
     query.evaluate(scene.request, result);
     near += expect_near(result, scene.request, distances_by_brute_force(scene.request));
+    expect_around(result, scene.request);
     full += result.near.size() == scene.request.max_near;
     more += result.near_more;
     spans += scene.request.path.size() > 4;

@@ -7,13 +7,16 @@ import sys
 import threading
 import time
 
+from diagnostic_msgs.msg import DiagnosticArray
 from dynamic_reconfigure.msg import Config, DoubleParameter
 from dynamic_reconfigure.srv import Reconfigure
 from geometry_msgs.msg import TwistStamped, Vector3
 from organ_collision.msg import GuardState
 from organ_collision.srv import RemoveOrgan
+from rosgraph_msgs.msg import Clock
 import rospy
 import rostest
+from std_srvs.srv import Trigger
 
 from support import scenes
 from support.node_client import Log, NodeClient, TfSender, wait_until
@@ -21,7 +24,7 @@ from support.processes import NodeStarter
 
 TROCAR, HIGH, SPEED = (0.003, 0.002, 0.4), 0.2, 0.02
 TOOL = {'name': 'hook', 'trocar_frame': 'hook_trocar', 'tip_frame': 'hook_tip', 'radius': 0.004, 'margin': 0.3,
-        'max_near': 1}
+        'max_near': 8}
 # Long, so that a busy machine makes no answer stale.
 GUARD = {'latency': 2.0, 'watch_time': 0.1, 'tissue_speed': 0.0, 'hold_sec': 0.0, 'collision_node': '/organ_collision'}
 BOX = scenes.box()
@@ -151,6 +154,36 @@ class GuardTest(NodeStarter):
         self.assertAlmostEqual(state.retreat.z, 1.0, 5)  # from the tip to the trocar
         wait_until(lambda: abs(self.hook.velocity - 0.005) < 1e-6, 'the tool retreats at `retreat_speed`')
 
+    def test_few_near_faces_are_warned_of(self):
+        rospy.set_param('/organ_collision/tools', [dict(TOOL, max_near=7)])
+        rospy.ServiceProxy('/organ_collision/reload_tools', Trigger)()
+        log = Log('/diagnostics', DiagnosticArray)
+        wait_until(lambda: any('max_near 7' in status.message for array in log.messages for status in array.status),
+                   'a warning')
+
+    def test_nothing_that_a_clock_says_ends_them(self):
+        """A guard and a program that obeys have a clock of their own, which jumps. Afterwards they go on."""
+        rospy.set_param('/use_sim_time', True)
+        self.addCleanup(rospy.delete_param, '/use_sim_time')
+        clock, states = rospy.Publisher('/clock', Clock, queue_size=1), Log('/clocked_guard/state', GuardState)
+        processes = [self.start('/clocked_guard', GUARD, 'tool_guard'),
+                     self.start('/clocked_obey', {'tool': 'hook'}, 'obey_guard.py')]
+
+        def goes_on(time_of, is_right):
+            count = len(states.messages)
+
+            def is_seen():
+                self.assertEqual([process.poll() for process in processes], [None, None])
+                clock.publish(time_of())
+                return len(states.messages) > count + 10 and states.messages[-1] and is_right(states.messages[-1])
+            wait_until(is_seen, lambda: '%s: %s' % (time_of(), states.messages[-1:]))
+
+        last, top = 2 ** 31 - 1, 2 ** 32 - 1
+        for seconds in (top, 1, top, last, top, last + 1, 0, 3 * 10 ** 9, last, 10 ** 9, top):
+            goes_on(lambda: rospy.Time(seconds, 999999999), lambda state: state.stage == GuardState.STOP)
+            self.tf.send(('liver_frame', 'extreme', TROCAR, rospy.Time(seconds, 999999999)))
+            goes_on(rospy.Time.now, lambda state: state.stage != GuardState.STOP)
+
     def test_refusals(self):
         node = '/without'
         for change, guard, words in (({'margin': 0.0, 'max_near': 0}, {}, ["/without/tools: 'hook' has no `margin`"]),
@@ -158,9 +191,14 @@ class GuardTest(NodeStarter):
                                      ({}, {'touch_allowed': [{'organ': 'liver', 'link': 'shift'}]},
                                       ["~touch_allowed has 'shift'", "nearest is 'shaft'"]),
                                      ({}, {'tools': ['hock']}, ["~tools has 'hock'", "nearest is 'hook'"]),
+                                     ({'links': ['jaw'], 'urdf': '/no/such/file.urdf', 'trocar_frame': None, 'tip_frame': None, 'radius': None},
+                                      {'keep': [{'organ': 'liver', 'side': 'inside'}]},
+                                      ["/without/tools: 'hook' has no `tip_frame`", "'liver'"]),
+                                     ({}, {'error': 0.002}, ['~error', '~stop_distance']),
                                      ({}, {'latency': 0.01}, ['~latency is ', '0.12'])):
             placement = change.pop('publish_placement', True)
-            process = self.start(node, {'tools': [dict(TOOL, **change)], 'publish_placement': placement})
+            tool = {key: value for key, value in dict(TOOL, **change).items() if value is not None}
+            process = self.start(node, {'tools': [tool], 'publish_placement': placement})
             self.assert_refused(self.start('/refused', dict(guard, collision_node=node), 'tool_guard'), words)
             process.kill()
             process.wait()

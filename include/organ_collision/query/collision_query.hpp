@@ -128,6 +128,14 @@ struct CollisionResult {
   /// At most so many faces were not measured to the end, because the query reached its work limit.
   /// If it is above 0, nearer faces may be missing in `near`, and its distances are upper bounds.
   std::size_t near_unresolved = 0;
+  /// With near faces: the nearest faces in different directions at the end of the step, touched
+  /// ones too, sorted by link, then distance. `depth` is minus the distance. Each other face up to
+  /// `around_up_to` is farther from a link than one of the link's faces here, in the same
+  /// direction: beyond the plane at right angles to its normal, at 4/5 of its distance or more.
+  std::vector<FaceContact> around;
+  /// [m] The least distance plus 0.01, or the margin if that is less. 0: `around` is not asked for,
+  /// or not complete.
+  double around_up_to = 0.0;
   /// How many faces had to be looked at one by one.
   PickCounts picked;
   /// If asked for: how far the tool is from the organ.
