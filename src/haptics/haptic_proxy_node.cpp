@@ -1,6 +1,7 @@
 #include "haptic_proxy_node.hpp"
 
 #include <organ_collision/ContactArray.h>
+#include <ros/master.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -35,17 +36,20 @@ HapticProxyNode::HapticProxyNode(NodeCore& core, const HapticProxyParameters& pa
       frame_(parameters.frame),
       hands_(make_hands(core.tools(), KeptTools(core.tools().size()))),
       started_(SteadyClock::now()),
-      publisher_(core.private_node(), counters_.failed, parameters.publish_tf),
+      topics_thread_(core.start_thread()),
+      publisher_(core.private_node(), inbox_.organs, counters_.failed, parameters.publish_tf,
+                 {topics_thread_, core.loop().queue()}),
       markers_(core.private_node(), parameters.markers) {
-  publisher_.set_tools(parameters.tools);
+  publisher_.set_tools(core.tools(), publisher_.prepare(core.tools()));
 }
 
 void HapticProxyNode::start() {
-  core_.updater().add("proxies", this, &HapticProxyNode::diagnose);
-  add_diagnostics(core_.updater(),
-                  ReceivedParts{parameters_.mesh_timeout_sec, core_.tools(), inbox_.organs,
-                                inbox_.intake, counters_.meshes, counters_.rejected});
+  core_.diagnostics().add("proxies", this, &HapticProxyNode::diagnose);
+  add_diagnostics(core_.diagnostics(), ReceivedParts{parameters_.mesh_timeout_sec, core_.tools(),
+                                                     inbox_.organs, inbox_.intake, counters_.meshes,
+                                                     counters_.rejected, counters_.doubted});
   inbox_.subscribe(core_.node(), core_.private_node());
+  inbox_.motion.watch_types(core_.node(), core_.master_queue());
   ROS_INFO("ready: %s with a proxy, %g N/m", counted(core_.tools().size(), "tool").c_str(),
            parameters_.stiffness);
 }
@@ -71,6 +75,7 @@ void HapticProxyNode::handle(SteadyTime) {
 
 void HapticProxyNode::work() {
   follow_hands();
+  publisher_.end_unused(SteadyClock::now());
   markers_.update(inbox_.organs, [this](double size) -> Drawing {
     return [views = views(size)](auto& picture) {
       for (const ProxyView& view : views) add_proxy(view, picture);
@@ -85,20 +90,32 @@ void HapticProxyNode::reset() {
 
 void HapticProxyNode::parameters_changed() {
   for (Hand& hand : hands_) {
-    if (hand.proxy) hand.proxy->update_settings();
+    if (!hand.proxy) continue;
+    hand.proxy->update_settings();
+    // The next shape may come late, and a lower limit holds at once.
+    if (auto lowered = hand.proxy->lower(SteadyClock::now())) {
+      publisher_.publish_again(std::move(*lowered));
+    }
   }
   markers_.set_settings(parameters_.markers);
 }
 
-void HapticProxyNode::prepare_tools(const std::vector<ToolParameters>& tools) {
-  for (Hand& hand : hands_) hand.is_leaving = false;  // If the exchange fails, the hands stay.
-  inbox_.motion.change_tools(tools, core_.node());
-}
-
-void HapticProxyNode::tools_changed(const KeptTools& kept) {
-  publisher_.set_tools(parameters_.tools);
-  hands_ = make_hands(core_.tools(), kept);
-  has_new_shape_ = true;
+std::function<void()> HapticProxyNode::prepare_tools(std::vector<Tool>& tools,
+                                                     const KeptTools& kept) {
+  if (!ros::master::check()) throw std::runtime_error("the ROS master does not answer");
+  auto streams = inbox_.motion.subscribe_for(tools, core_.node());
+  auto hands = std::make_shared<std::vector<Hand>>(make_hands(tools, kept));
+  ProxyPublisher::Tools topics;
+  run_in_thread_of(topics_thread_, [&] { topics = publisher_.prepare(tools); });
+  return [this, kept, streams, hands, topics]() mutable {
+    for (std::size_t tool = 0; tool < kept.size(); ++tool) {
+      if (kept[tool]) (*hands)[tool] = std::move(hands_[*kept[tool]]);
+    }
+    hands_.swap(*hands);
+    publisher_.set_tools(core_.tools(), std::move(topics));
+    inbox_.motion.change_tools(streams, core_.tools());
+    has_new_shape_ = true;
+  };
 }
 
 /// Lets all forces fade, and publishes why. Returns when the last messages have left.
@@ -162,10 +179,10 @@ std::optional<SteadyTime> HapticProxyNode::next_deadline() {
   return core_.loop().now() + (*next - now);
 }
 
-/// Makes a hand for each tool. A tool that stays keeps its hand. A tool whose proxy cannot be made
-/// gets a fault. Throws GlError.
+/// Makes a hand for each tool that does not keep its own. A tool whose proxy cannot be made gets a
+/// fault. Throws GlError.
 std::vector<HapticProxyNode::Hand> HapticProxyNode::make_hands(std::vector<Tool>& tools,
-                                                               const KeptTools& kept) {
+                                                               const KeptTools& kept) const {
   std::vector<Hand> hands(tools.size());
   for (std::size_t tool = 0; tool < tools.size(); ++tool) {
     if (kept[tool] || !tools[tool].fault.empty()) continue;
@@ -174,9 +191,6 @@ std::vector<HapticProxyNode::Hand> HapticProxyNode::make_hands(std::vector<Tool>
     } catch (const std::invalid_argument& error) {
       tools[tool].fault = tools[tool].parameters.name + ": " + error.what();
     }
-  }
-  for (std::size_t tool = 0; tool < tools.size(); ++tool) {
-    if (kept[tool]) hands[tool] = std::move(hands_[*kept[tool]]);
   }
   return hands;
 }

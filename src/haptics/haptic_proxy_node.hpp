@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -26,9 +27,9 @@ namespace organ_collision {
 /// Inbox for messages as the collision node. Each pose of a hand causes one tick of its proxy,
 /// unless the node lags behind. Poses on TF are looked up after each batch of messages. While a
 /// force fades or rises, the node makes more ticks with the last pose. A tool in lockstep instead
-/// has one tick for each shape of an organ. One thread does all this (node_core.hpp) and owns the
-/// GL contexts. The background thread inspects surfaces, and loads new
-/// tools and parameters.
+/// has one tick for each shape of an organ. One thread does all this (node_core.hpp). It waits for
+/// nothing: other threads inspect surfaces, make new tools with their GL contexts, and wait for the
+/// ROS master.
 class HapticProxyNode final : public OrganNode {
  public:
   /// Throws GlError.
@@ -41,9 +42,8 @@ class HapticProxyNode final : public OrganNode {
   std::optional<SteadyTime> next_deadline() override;
   void reset() override;
   void parameters_changed() override;
+  std::function<void()> prepare_tools(std::vector<Tool>& tools, const KeptTools& kept) override;
   void release_tools(const KeptTools& kept) override;
-  void prepare_tools(const std::vector<ToolParameters>& tools) override;
-  void tools_changed(const KeptTools& kept) override;
   void end(const std::exception* fault) override;
 
  private:
@@ -90,13 +90,14 @@ class HapticProxyNode final : public OrganNode {
         std::chrono::duration<double>(parameters_.pose_timeout_sec));
   }
   Timed<ToolPose> latest_pose(std::size_t tool) const;
+  std::optional<Eigen::Isometry3d> tip_frame(std::size_t tool, const Timed<ToolPose>& pose) const;
   ProxyScene scene_of(const AwaitedShape* awaited, Time now);
   bool is_due(std::size_t tool, ros::Time stamp, bool have_organs_moved, Time now);
-  void tick(Hand& hand, const Timed<ToolPose>& pose, const ProxyScene& scene, Time now,
+  void tick(std::size_t tool, const Timed<ToolPose>& pose, const ProxyScene& scene, Time now,
             const std::string& answered_organ = "");
   std::vector<ProxyView> views(double size) const;
   void lose(std::size_t tool, const Rejection& why, Time now);
-  std::vector<Hand> make_hands(std::vector<Tool>& tools, const KeptTools& kept);
+  std::vector<Hand> make_hands(std::vector<Tool>& tools, const KeptTools& kept) const;
   void reset_proxies(const std::string& why);
   void change_frame(const std::string& before);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
@@ -111,7 +112,8 @@ class HapticProxyNode final : public OrganNode {
   std::vector<Hand> hands_;    ///< in the order of the tools
   bool has_new_shape_ = true;  ///< an organ got a new shape since follow_hands()
   Time started_;
-  std::optional<Time> batch_began_;  ///< when the first message of this batch came
+  std::optional<Time> batch_began_;    ///< when the first message of this batch came
+  ros::CallbackQueue& topics_thread_;  ///< of a thread in which topics begin and end
   ProxyPublisher publisher_;
   MarkerPublisher markers_;
 };

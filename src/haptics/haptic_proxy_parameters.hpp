@@ -26,7 +26,8 @@ inline constexpr char kFrameTimeoutSec[] = "frame_timeout_sec";
 namespace organ_collision {
 
 /// [m] The legal clearances of an organ and a link.
-inline constexpr double kLeastClearance = 1e-5, kLargestClearance = 0.1;
+inline constexpr double kLeastClearance = 1e-5;
+inline constexpr NumberRange kClearances{kLeastClearance, 0.1};
 
 /// An entry of the parameter `clearance`.
 struct ClearanceEntry {
@@ -46,7 +47,7 @@ struct HapticProxyParameters : OrganNodeParameters {
   double clearance = ProxySettings().clearance;        ///< [m] where no entry says otherwise
   std::vector<ClearanceEntry> clearances;              ///< with an organ, a link, or both
   double clearance_speed = 0.05;                       ///< [m/s]
-  bool guard_lag = false;                              ///< see guard_lag() in proxy_scene.hpp
+  bool guard_lag = false;                              ///< see tell_motion() in proxy_scene.hpp
   double row_reach = 0.02;                             ///< ProxySettings::row_reach
   bool hand_rows = ProxySettings().hand_rows;
   double jump = ProxySettings().jump;  ///< [m]
@@ -85,19 +86,18 @@ inline double clearance_of(const HapticProxyParameters& parameters, const std::s
   return best.second;
 }
 
-/// Reads the parameter `clearance` if it is a list. Otherwise, there are no entries. Throws
-/// ParameterError, and then changes nothing.
-inline void read_clearances(const ParameterGroup& all, HapticProxyParameters& p) {
+/// Reads the parameter `clearance` if it is a list, and returns what takes it over. Otherwise,
+/// there are no entries. Throws ParameterError.
+inline std::function<void()> read_clearances(const ParameterGroup& all, HapticProxyParameters& p) {
+  if (!all.has_list("clearance")) return [&p] { p.clearances.clear(); };
   HapticProxyParameters read;
-  std::vector<std::string> unknown, links{names::kShaftName};
-  if (!all.has_list("clearance")) return p.clearances.clear();
-  for (const ToolParameters& tool : parse_tools(all, unknown)) {
+  std::vector<std::string> links{names::kShaftName};
+  for (const ToolParameters& tool : parse_tools(all)) {
     links.insert(links.end(), tool.links.begin(), tool.links.end());
   }
-  unknown.clear();
   double fallback = 0.0;
   for (const ParameterGroup& entry : all.groups("clearance", "groups of organ, link and value",
-                                                {"organ", "link", "value", "ignored"}, unknown)) {
+                                                {"organ", "link", "value", "ignored"})) {
     ClearanceEntry of;
     if (entry.has("organ")) of.organ = entry.text("organ");
     if (entry.has("link")) of.link = entry.text("link");
@@ -108,16 +108,28 @@ inline void read_clearances(const ParameterGroup& all, HapticProxyParameters& p)
     const bool is_ignored = entry.flag("ignored", false);
     if (is_ignored && !has_both) entry.refuse("ignored", "must be false without organ and link");
     if (is_ignored && entry.has("value")) entry.refuse("value", "must be left out if ignored");
-    if (!is_ignored) of.value = entry.number("value", {}, {kLeastClearance, kLargestClearance});
+    if (!is_ignored) of.value = entry.number("value", {}, kClearances);
     if (of.organ.empty() && of.link.empty()) {
       fallback = std::max(fallback, of.value);
     } else {
       read.clearances.push_back(of);
     }
   }
-  for (const std::string& sentence : unknown) throw ParameterError(sentence);
-  p.clearances = std::move(read.clearances);
-  p.clearance = fallback > 0.0 ? fallback : read.clearance;
+  if (fallback > 0.0) read.clearance = fallback;
+  return [&p, read] {
+    p.clearances = read.clearances;
+    p.clearance = read.clearance;
+  };
+}
+
+/// Reads the parameter `keep`, and returns what takes it over. Throws ParameterError.
+inline std::function<void()> read_keep(const ParameterGroup& all, HapticProxyParameters& p) {
+  const std::map<KeptSide, Side> sides = {{KeptSide::kOutside, Side::kOutside},
+                                          {KeptSide::kInside, Side::kInside},
+                                          {KeptSide::kEither, Side::kUnknown}};
+  std::map<std::string, Side> keep;
+  for (const auto& [organ, side] : parse_keep(all)) keep[organ] = sides.at(side);
+  return [&p, keep] { p.keep = keep; };
 }
 
 inline ParameterTable table_of(HapticProxyParameters& p) {
@@ -125,7 +137,7 @@ inline ParameterTable table_of(HapticProxyParameters& p) {
   t.other(
       names::kTools, "required",
       [&p](const ParameterGroup& all) {
-        p.tools = parse_tools(all, p.misspelt);
+        p.tools = parse_tools(all);
         std::map<std::string, std::string> owners;  // tools, by the names of their topics
         for (const ToolParameters& tool : p.tools) {
           const auto& owner = owners.insert({tool_graph_name(tool.name), tool.name}).first->second;
@@ -170,15 +182,18 @@ inline ParameterTable table_of(HapticProxyParameters& p) {
            "[N m/s] the torque on a free tool about its centre changes by no more than this, "
            "likewise. 0: from 0 to max_torque in 10 ms, and 10 N m/s if max_torque is .inf")
       .live();
-  t.number("clearance", p.clearance, {0.0, kLargestClearance, false},
-           "[m] the proxy stops this far from tissue. Or a list, whose entries have value (1e-5 to "
-           "0.1), and organ, link or both (shaft: the tool's shaft): an entry with both wins over "
-           "one with the organ, and this one over one with the link; of equal ones, the larger "
-           "value wins. Neither: the default of all. With `ignored: true` instead of a value, and "
-           "both names, the organ does not hold the link. reload_tools reads a new list; a new "
-           "number replaces the list")
+  NumberRange clearances = kClearances;
+  clearances.instead = ", or a list of groups of organ, link and value";
+  t.number(
+       "clearance", p.clearance, clearances,
+       "[m] the proxy stops this far from tissue. Or a list, whose entries have value (as the "
+       "number), and organ, link or both (shaft: the tool's shaft): an entry with both wins over "
+       "one with the organ, and this one over one with the link; of equal ones, the larger "
+       "value wins. Neither: the default of all. With `ignored: true` instead of a value, and "
+       "both names, the organ does not hold the link. reload_tools reads a new list; a new "
+       "number replaces the list")
       .live()
-      .or_list([&p](const ParameterGroup& all) { read_clearances(all, p); });
+      .or_list([&p](const ParameterGroup& all) { return read_clearances(all, p); });
   t.number("clearance_speed", p.clearance_speed, {0.0, 10.0, false},
            "[m/s] at which clearances rise while the node runs. They fall at once")
       .live();
@@ -204,19 +219,13 @@ inline ParameterTable table_of(HapticProxyParameters& p) {
   t.number("friction", p.friction, {0.0, 1000.0},
            "[N] along the axis of a shaft that has pierced tissue")
       .live();
-  t.other(
+  t.list(
       "keep", "outside of all organs",
-      [&p](const ParameterGroup& all) {
-        const std::map<KeptSide, Side> sides = {{KeptSide::kOutside, Side::kOutside},
-                                                {KeptSide::kInside, Side::kInside},
-                                                {KeptSide::kEither, Side::kUnknown}};
-        for (const auto& [organ, side] : parse_keep(all, p.misspelt))
-          p.keep[organ] = sides.at(side);
-      },
+      [&p](const ParameterGroup& all) { return read_keep(all, p); },
       "list of organs in which tools work. Each has organ, the name of the organ, and side: inside "
       "(the wall of a hollow organ holds the tool), either (each tool keeps the side on which it "
       "starts) or outside. A surface that is not closed has no inside: there, side is always "
-      "either");
+      "either. reload_tools reads a new list");
   t.number("pose_timeout_sec", p.pose_timeout_sec, kTimerPeriod,
            "[s] of wall time after the last pose of the hand, the force fades. Raise it for poses "
            "slower than 100 Hz. A tool with `lockstep` waits so long for its pose at the stamp of "

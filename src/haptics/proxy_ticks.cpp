@@ -63,7 +63,7 @@ void HapticProxyNode::follow_hand(std::size_t tool, Time now) {
     const ProxyScene scene = scene_of(nullptr, now);
     hand.organs = scene.stamps;
     if (is_due(tool, pose.stamp, hand.organs != before, now)) {
-      tick(hand, pose, scene, now);
+      tick(tool, pose, scene, now);
     } else if (hand.why_not) {
       throw Rejection(*hand.why_not);
     }
@@ -145,7 +145,7 @@ void HapticProxyNode::answer_shapes(std::size_t tool, Time now) {
     hand.shapes.pop_front();
     const auto pose = pose_for(tool, awaited, now);
     if (!pose) return hand.shapes.push_front(awaited);
-    tick(hand, *pose, scene_of(&awaited, now), now, awaited.organ);
+    tick(tool, *pose, scene_of(&awaited, now), now, awaited.organ);
   }
 }
 
@@ -171,6 +171,21 @@ Timed<ToolPose> HapticProxyNode::latest_pose(std::size_t tool) const {
                     pose.why_not);
   }
   return std::move(*pose.found);
+}
+
+/// ProxyReport::tip_frame in a pose of the tool's hand.
+std::optional<Eigen::Isometry3d> HapticProxyNode::tip_frame(std::size_t tool,
+                                                            const Timed<ToolPose>& pose) const {
+  const ToolParameters& parameters = core_.tools()[tool].parameters;
+  const bool has_shaft = parameters.has_shaft();
+  const std::string tip = tip_frame_of(parameters);
+  const std::string from =
+      has_shaft ? frame_.name() : parameters.link_frame(parameters.links.front());
+  if (tip == from) return pose.value.links.front();
+  // The tip of links need not be known at the stamp of their pose.
+  const auto found = look_up(inbox_.transforms, from, tip, has_shaft ? pose.stamp : ros::Time());
+  if (!found.found) return std::nullopt;
+  return has_shaft ? found.found->value : pose.value.links.front() * found.found->value;
 }
 
 /// Whether the tool's hand needs a tick, because its pose is new, or its force fades or rises. A
@@ -205,19 +220,24 @@ bool HapticProxyNode::is_due(std::size_t tool, ros::Time stamp, bool have_organs
 }
 
 /// Follows the hand of a tool. `answered_organ`: ProxyReport::answered_organ.
-void HapticProxyNode::tick(Hand& hand, const Timed<ToolPose>& pose, const ProxyScene& scene,
+void HapticProxyNode::tick(std::size_t tool, const Timed<ToolPose>& pose, const ProxyScene& scene,
                            Time now, const std::string& answered_organ) {
-  const std::string tip_frame = tip_frame_of(hand.proxy->tool());
-  const auto tip = look_up(inbox_.transforms, frame_.name(), tip_frame, pose.stamp);
-  if (tip.found) hand.proxy->set_tip_frame(tip.found->value);
+  Hand& hand = hands_[tool];
   hand.proxy->tell_rows(publisher_.has_readers(hand.proxy->tool()));
-  ProxyReport report = hand.proxy->follow(pose, scene, now);
+  ProxyReport report = hand.proxy->follow(pose, scene, now, tip_frame(tool, pose));
   report.answered_organ = answered_organ;
   publisher_.publish(report);
   hand.told = now;
   hand.why_not.reset();
   counters_.ticks.count();
   counters_.tick_times.add(report.tick_sec);
+  std::string doubt;  // Only if the hand is far from all organs.
+  for (const ProxyOrgan& organ : scene.organs) {
+    doubt = doubt_about_place(report.tool, pose.value.axis, pose.value.links, organ.T_organ_proxy,
+                              organ.name, organ.shape->box());
+    if (doubt.empty()) break;
+  }
+  if (!doubt.empty()) counters_.doubted.add(report.tool.name, doubt, now);
   const std::string named = "tool '" + report.tool.name + "': ";
   if (report.clipped_by) {
     const bool is_force = report.clipped_by == names::kMaxForce;

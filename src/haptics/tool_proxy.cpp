@@ -69,6 +69,7 @@ ToolProxy::ToolProxy(const Tool& tool, const HapticProxyParameters& parameters)
 /// sweep lets it come, is then not squeezed.
 std::vector<ProxyOrgan> ToolProxy::organs_of(const ProxyScene& scene, Time now) {
   const std::chrono::duration<double> passed = now - std::exchange(followed_, now);
+  const bool tells_rows = tells_rows_ && (parameters_.row_reach > 0.0 || parameters_.hand_rows);
   std::vector<ProxyOrgan> organs = scene.organs;
   for (std::size_t i = 0; i < organs.size(); ++i) {
     const auto last = std::find_if(organs_.begin(), organs_.end(),
@@ -82,12 +83,13 @@ std::vector<ProxyOrgan> ToolProxy::organs_of(const ProxyScene& scene, Time now) 
       }
       organs[i].clearances.push_back(clearance);
     }
-    if (parameters_.guard_lag) guard_lag(scene, i, organs[i]);
+    tell_motion(scene, i, parameters_.guard_lag, tells_rows, organs[i]);
   }
   return organs;
 }
 
-ProxyReport ToolProxy::follow(const Timed<ToolPose>& hand, const ProxyScene& scene, Time now) {
+ProxyReport ToolProxy::follow(const Timed<ToolPose>& hand, const ProxyScene& scene, Time now,
+                              const std::optional<Eigen::Isometry3d>& tip_frame) {
   const auto start = std::chrono::steady_clock::now();
   std::vector<ProxyOrgan> organs = organs_of(scene, now);
   const ProxyAnswer& answer = proxy_.follow(hand.value, organs);
@@ -98,13 +100,14 @@ ProxyReport ToolProxy::follow(const Timed<ToolPose>& hand, const ProxyScene& sce
   const ros::Time stamp = hand.stamp.isZero() ? ros::Time::now() : hand.stamp;
   std::vector<OrganForce> target = forces(answer, scene, damping(answer, scene, stamp));
   organs_ = std::move(organs);
-  for (ProxyOrgan& organ : organs_) organ.advance = nullptr;  // It refers to the scene.
+  for (ProxyOrgan& organ : organs_) organ.advance = organ.approach = nullptr;  // Of the scene.
   is_lost_ = false;
   hand_ = hand.value;
   answer_ = &answer;
   held_ = answer.proxy;
   frame_ = scene.frame;
   center_ = answer.center;
+  tip_frame_ = tip_frame;
   ProxyReport report{tool_, frame_, stamp, ContactArray::OK, answer.message, hand_, held_};
   report.answer = &answer;
   report.scene = &scene;
@@ -120,6 +123,19 @@ ProxyReport ToolProxy::lose(std::uint8_t status, const std::string& message,
   if (frame_.empty()) frame_ = frame;
   ProxyReport report{tool_, frame_, ros::Time::now(), status, message, hand_, held_};
   set_forces(report, {}, now);
+  return report;
+}
+
+std::optional<ProxyReport> ToolProxy::lower(Time now) {
+  const WrenchLimits limits = wrench_limits(parameters_);
+  const std::vector<OrganForce>& told = limiter_.forces();
+  const bool is_within =
+      force_of(told).norm() <= limits.force && torque_of(told).norm() <= limits.torque;
+  if (!tool_.lockstep || !answer() || is_within) return std::nullopt;
+  ProxyReport report{tool_, frame_, {}, ContactArray::OK, ""};
+  report.answer = answer_;
+  set_forces(report, told, now);
+  report.answer = nullptr;
   return report;
 }
 
@@ -145,6 +161,7 @@ void ToolProxy::set_forces(ProxyReport& report, std::vector<OrganForce> target, 
   WrenchLimits limits = wrench_limits(parameters_);
   if (lets_go_) limits.force = limits.torque = 0.0;
   if (tool_.lockstep && report.answer) limits.force_rate = limits.torque_rate = kUnlimited;
+  report.limits = limits;
   report.center = center_;
   report.tip_frame = tip_frame_;
   report.forces = limiter_.follow(std::move(target), limits, now);

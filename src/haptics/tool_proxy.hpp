@@ -36,8 +36,10 @@ struct ProxyReport {
   bool is_fading = false;  ///< the forces are on their way to those of this state
   /// The parameter whose limit reduced the forces. Null: no limit reduced them.
   const char* clipped_by = nullptr;
+  WrenchLimits limits{kUnlimited, kUnlimited, kUnlimited, kUnlimited};  ///< of the forces
   double tick_sec = 0.0;  ///< [s] how long HapticProxy::follow() took
-  /// The pose of the tool's tip frame (tip_frame_of()) in `frame`. Empty: it was never known.
+  /// The pose of the tool's tip frame (tip_frame_of()) in `frame` and in `hand`. Empty: it was
+  /// never known.
   std::optional<Eigen::Isometry3d> tip_frame = {};
   /// The organ whose shape this answers, if the tool is in lockstep. Empty: all organs.
   std::string answered_organ = {};
@@ -84,9 +86,11 @@ class ToolProxy {
   ToolProxy(const Tool& tool, const HapticProxyParameters& parameters);
 
   /// Makes a tick with a new pose of the hand. A stamp of zero means that the pose is valid at any
-  /// time. Throws GlError and std::invalid_argument as HapticProxy::follow(), and Rejection if
-  /// there is no proxy, or if its force is not finite. After an exception, call lose().
-  ProxyReport follow(const Timed<ToolPose>& hand, const ProxyScene& scene, Time now);
+  /// time. `tip_frame`: ProxyReport::tip_frame in this pose; empty: it is not known. Throws GlError
+  /// and std::invalid_argument as HapticProxy::follow(), and Rejection if there is no proxy, or if
+  /// its force is not finite. After an exception, call lose().
+  ProxyReport follow(const Timed<ToolPose>& hand, const ProxyScene& scene, Time now,
+                     const std::optional<Eigen::Isometry3d>& tip_frame = {});
   /// Lets the force fade, because there is no answer. `status`: the reason, a constant of
   /// ContactArray. `frame`: the report's frame if there never was an answer.
   ProxyReport lose(std::uint8_t status, const std::string& message, const std::string& frame,
@@ -98,8 +102,9 @@ class ToolProxy {
   /// whatever the parameters are.
   void let_go() { lets_go_ = true; }
 
-  /// Sets the pose of the tool's tip frame, for the next reports.
-  void set_tip_frame(const Eigen::Isometry3d& T_frame_tip) { tip_frame_ = T_frame_tip; }
+  /// For a tool in lockstep: the last answer again, if its forces exceed the present limits. They
+  /// are then within these. Only forces, limits and the places where they act are in the report.
+  std::optional<ProxyReport> lower(Time now);
 
   const ToolParameters& tool() const { return tool_; }
   /// The last pose of the hand that had an answer.

@@ -1,10 +1,6 @@
 #include "topic_names.hpp"
 
-#include <organ_collision/ContactArray.h>
-
 #include <algorithm>
-
-#include "common/messages/failure_log.hpp"
 
 namespace organ_collision {
 namespace {
@@ -23,15 +19,8 @@ std::string graph_name(std::string name, const std::string& prefix) {
 
 std::string tool_graph_name(const std::string& tool) { return graph_name(tool, "tool_"); }
 
-std::string PairNames::of(const std::string& organ, const std::string& tool) {
-  std::string name = graph_name(organ, "organ_") + "/" + tool_graph_name(tool);
-  const auto& owner = owners_.insert({name, {organ, tool}}).first->second;
-  if (owner != std::make_pair(organ, tool)) {
-    throw Rejection(ContactArray::INVALID_REQUEST, "name taken",
-                    "the topics " + name + " belong to organ '" + owner.first + "', tool '" +
-                        owner.second + "'; the names must differ in letters or digits");
-  }
-  return name;
+std::string pair_graph_name(const std::string& organ, const std::string& tool) {
+  return graph_name(organ, "organ_") + "/" + tool_graph_name(tool);
 }
 
 }  // namespace organ_collision

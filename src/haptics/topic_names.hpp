@@ -1,8 +1,6 @@
 #pragma once
 
-#include <map>
 #include <string>
-#include <utility>
 
 /// The names of haptic_proxy in the ROS graph, besides those of the collision node.
 namespace organ_collision::names {
@@ -29,15 +27,8 @@ inline constexpr char kPairNamesHelp[] =
     "is no letter, digit or _. A name that does not begin with a letter gets the prefix tool_ or "
     "organ_.";
 
-/// Gives each pair of organ and tool its name in the ROS graph.
-class PairNames {
- public:
-  /// "ORGAN/TOOL", a relative name. Both names are made as tool_graph_name() does it, but the
-  /// prefix of the organ's name is "organ_". Throws Rejection if another pair already has the name.
-  std::string of(const std::string& organ, const std::string& tool);
-
- private:
-  std::map<std::string, std::pair<std::string, std::string>> owners_;  ///< pairs, by their names
-};
+/// The name of an organ and a tool in the ROS graph: "ORGAN/TOOL", a relative name. Both names are
+/// made as tool_graph_name() does it, but the prefix of the organ's name is "organ_".
+std::string pair_graph_name(const std::string& organ, const std::string& tool);
 
 }  // namespace organ_collision

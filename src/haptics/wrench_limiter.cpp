@@ -102,14 +102,16 @@ void WrenchLimiter::lower(std::vector<OrganForce>& forces, const WrenchLimits& l
   const std::chrono::duration<double> passed = now - lowered_, whole = kLowering;
   const double left = std::clamp(1.0 - passed / whole, 0.0, 1.0);
   const auto shrink = [&](Vector3d OrganForce::*load, const Vector3d& sum, double limit,
-                          double before) {
-    const double most = before > limit ? limit + left * (before - limit) : limit;
+                          double rate, double before) {
+    const bool is_on_way = before > limit && rate != kUnlimited;
+    const double most = is_on_way ? limit + left * (before - limit) : limit;
     const double share = share_within_limit(sum, most);
     if (share > 1.0 - kRounding) return;
     for (OrganForce& of_organ : forces) of_organ.*load *= share;
   };
-  shrink(&OrganForce::force, force_of(forces), limits.force, lowered_force_);
-  shrink(&OrganForce::torque, torque_of(forces), limits.torque, lowered_torque_);
+  shrink(&OrganForce::force, force_of(forces), limits.force, limits.force_rate, lowered_force_);
+  shrink(&OrganForce::torque, torque_of(forces), limits.torque, limits.torque_rate,
+         lowered_torque_);
 }
 
 void WrenchLimiter::expect_change() {

@@ -25,7 +25,8 @@ class WrenchLimiter {
 
   /// The longest time that counts in a step, so that a hand that was silent for long gets no jump.
   static constexpr std::chrono::milliseconds kLongestStep{2};
-  /// A limit of force or torque that is lowered holds after this time, whatever the rates are.
+  /// A limit of force or torque that is lowered holds after this time, whatever the rates are. If
+  /// they are kUnlimited, it holds at once.
   static constexpr std::chrono::milliseconds kLowering{8};
 
   /// Returns the forces to publish at `now`, and keeps them. `target`: the present forces; empty:

@@ -4,6 +4,7 @@
 #include <boost/make_shared.hpp>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <set>
 #include <utility>
 
@@ -41,9 +42,8 @@ class CollisionNode final : public OrganNode {
   std::optional<SteadyTime> next_deadline() override { return pipeline_.steps.next_deadline(); }
   void reset() override;
   void parameters_changed() override;
+  std::function<void()> prepare_tools(std::vector<Tool>& tools, const KeptTools& kept) override;
   void release_tools(const KeptTools&) override {}
-  void prepare_tools(const std::vector<ToolParameters>& tools) override;
-  void tools_changed(const KeptTools& kept) override;
   void end(const std::exception* fault) override;
 
  private:
@@ -53,6 +53,7 @@ class CollisionNode final : public OrganNode {
   void publish_failure(const std::string& organ, const std_msgs::Header& header,
                        std::uint8_t status, const std::string& message);
   void start_ticks();
+  void tick_at(ros::Time now, double rate);
 
   NodeCore& core_;
   const NodeParameters& parameters_;
@@ -64,7 +65,8 @@ class CollisionNode final : public OrganNode {
   CollisionPipeline pipeline_;
   QueryServices services_;
   double tick_rate_hz_ = 0.0;
-  ros::Timer tick_;
+  ros::SteadyTimer tick_;
+  ros::Time last_tick_;  ///< in simulated time
 };
 
 CollisionNode::CollisionNode(NodeCore& core, const NodeParameters& parameters)
@@ -86,13 +88,15 @@ CollisionNode::CollisionNode(NodeCore& core, const NodeParameters& parameters)
           [&core](const auto& action) { core.in_node_thread(action); }, counters_) {}
 
 void CollisionNode::start() {
-  core_.updater().add("queries", [this](auto& status) {
+  core_.diagnostics().add("queries", [this](auto& status) {
     show_queries(parameters_.misspelt, pipeline_, counters_, status);
   });
-  add_diagnostics(core_.updater(),
+  add_diagnostics(core_.diagnostics(),
                   ReceivedParts{parameters_.mesh_timeout_sec, core_.tools(), pipeline_.inbox.organs,
-                                pipeline_.inbox.intake, counters_.meshes, counters_.rejected});
+                                pipeline_.inbox.intake, counters_.meshes, counters_.rejected,
+                                counters_.doubted});
   pipeline_.inbox.subscribe(core_.node(), core_.private_node());
+  pipeline_.inbox.motion.watch_types(core_.node(), core_.master_queue());
   services_.advertise(on_queue(core_.private_node(), core_.start_thread()),
                       on_queue(core_.private_node(), core_.start_thread()));
   start_ticks();
@@ -121,19 +125,20 @@ void CollisionNode::parameters_changed() {
   markers_.set_settings(parameters_.markers);
 }
 
-void CollisionNode::prepare_tools(const std::vector<ToolParameters>& tools) {
-  pipeline_.inbox.motion.change_tools(tools, core_.node());
-}
-
-void CollisionNode::tools_changed(const KeptTools& kept) {
-  std::set<std::string> staying;
-  for (std::size_t tool = 0; tool < kept.size(); ++tool) {
-    if (kept[tool]) staying.insert(core_.tools()[tool].parameters.name);
-  }
-  touches_.forget_other_tools(staying, "tools changed");
-  pipeline_.steps.change_tools(kept);
-  markers_.set_tools(core_.tools());
-  swaps_.assign(core_.tools().size(), {});
+std::function<void()> CollisionNode::prepare_tools(std::vector<Tool>& tools,
+                                                   const KeptTools& kept) {
+  return
+      [this, kept, streams = pipeline_.inbox.motion.subscribe_for(tools, core_.node())]() mutable {
+        std::set<std::string> staying;
+        for (std::size_t tool = 0; tool < kept.size(); ++tool) {
+          if (kept[tool]) staying.insert(core_.tools()[tool].parameters.name);
+        }
+        touches_.forget_other_tools(staying, "tools changed");
+        pipeline_.steps.change_tools(kept);
+        markers_.set_tools(core_.tools());
+        swaps_.assign(core_.tools().size(), {});
+        pipeline_.inbox.motion.change_tools(streams, core_.tools());
+      };
 }
 
 /// If the node broke down, publishes PICKER_FAILED for each organ and tool: subscribers must not
@@ -160,9 +165,16 @@ void CollisionNode::publish(const ToolStep& step) {
     counters_.incomplete.add("path not wholly known",
                              "tool '" + answer.tool + "': " + answer.message);
   }
-  if (answer.status == ContactArray::OK) counters_.query_times.add(step.query_sec);
+  if (answer.status == ContactArray::OK) {
+    counters_.query_times.add(step.query_sec);
+    const ToolWaypoint& end = step.question.sampled.path.back();
+    const std::string doubt = doubt_about_place(core_.tools()[step.tool].parameters, end.axis,
+                                                end.links, Eigen::Isometry3d::Identity(),
+                                                answer.organ, step.question.shape.mesh->box());
+    if (!doubt.empty()) counters_.doubted.add(answer.tool, doubt);
+  }
   contacts_.publish(step.answer);
-  touches_.follow(answer, core_.loop().now(), core_.tools()[step.tool].parameters.jaws);
+  touches_.follow(step, core_.loop().now(), parameters_.grasp_hold_sec);
   ++counters_.published;
   markers_.add(step);
   if (answer.status == ContactArray::OK && step.moves) watch_ends(step);
@@ -199,24 +211,41 @@ void CollisionNode::publish_failure(const std::string& organ, const std_msgs::He
     const auto answer = boost::make_shared<ContactArray>(
         failed_answer(organ, tool.parameters, header, status, message));
     contacts_.publish(answer);
-    touches_.follow(*answer, core_.loop().now());
+    touches_.follow_failure(*answer, core_.loop().now());
     ++counters_.published;
   }
 }
 
-/// Starts ticks at the parameter `rate`, unless they have this rate already.
+/// Starts ticks at the parameter `rate`, unless they have this rate already. A ros::Timer would end
+/// the node if /clock goes on by more than 2^31 s at once.
 void CollisionNode::start_ticks() {
   const double rate = parameters_.rate_hz;
   if (rate == std::exchange(tick_rate_hz_, rate)) return;
-  tick_ = ros::Timer();
+  tick_ = ros::SteadyTimer();
   if (!(rate > 0.0)) return;
-  tick_ = core_.private_node().createTimer(
-      ros::Duration(1.0 / rate), [this, rate](const ros::TimerEvent& event) {
+  last_tick_ = ros::Time::now();
+  // Simulated time is looked at often, so that a tick comes soon after the clock has reached it.
+  constexpr double kLookSec = 1e-3;
+  const double period = ros::Time::isSimTime() ? std::min(kLookSec, 1.0 / rate) : 1.0 / rate;
+  tick_ = core_.private_node().createSteadyTimer(
+      ros::WallDuration(period), [this, rate](const ros::SteadyTimerEvent& event) {
+        if (ros::Time::isSimTime()) return tick_at(ros::Time::now(), rate);
         const double since = (event.current_expected - event.last_expected).toSec();
         const bool is_first = event.last_expected.isZero();
         const auto ticks = is_first ? 1.0 : std::clamp(std::round(since * rate), 1.0, 1e9);
         pipeline_.steps.add_tick(static_cast<std::uint64_t>(ticks) - 1);
       });
+}
+
+/// Makes a tick if simulated time has reached the next one.
+void CollisionNode::tick_at(ros::Time now, double rate) {
+  const double passed = seconds_between(last_tick_, now) * rate;
+  if (passed < 0.0 || last_tick_.isZero()) last_tick_ = now;
+  const auto ticks = static_cast<std::uint64_t>(std::clamp(passed + 1e-6, 0.0, 1e9));
+  if (ticks == 0 || last_tick_ == now) return;
+  // After a jump of the clock, ticks begin anew.
+  last_tick_ = ticks < 1e9 ? later(last_tick_, static_cast<double>(ticks) / rate) : now;
+  pipeline_.steps.add_tick(ticks - 1);
 }
 
 }  // namespace

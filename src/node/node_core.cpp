@@ -106,8 +106,9 @@ ProgramHelp organ_node_help(const std::string& program, const std::string& purpo
        "all tools as they were loaded: frames, links, jaws, radius, and why one cannot be used"},
       {names::kReset, service_type<std_srvs::Empty>(), reset},
       {names::kReloadTools, service_type<std_srvs::Trigger>(),
-       "reads the parameter tools again, and the robots' files. Unchanged tools go on as "
-       "before. If the list is illegal or a new tool cannot be loaded, nothing changes"},
+       "reads the parameter tools again, and the robots' files; of haptic_proxy, clearance and "
+       "keep, too. The message says what was read. Unchanged tools go on as before. If a list is "
+       "illegal or a new tool cannot be loaded, nothing changes"},
       LiveParameters::help()};
   help.tool_keys = tool_keys();
   return help;
@@ -154,7 +155,7 @@ void NodeCore::run(OrganNode& node, const RunControl& control) {
 void NodeCore::start(OrganNode& node) {
   running_ = &node;
   warn_of_settings(tools_, parameters_.misspelt);
-  updater().add("scheduling", &realtime_, &Realtime::diagnose);
+  diagnostics().add("scheduling", &realtime_, &Realtime::diagnose);
   live_parameters_.advertise();
   servers_ = {
       advertise_checked<std_srvs::Trigger>(on_queue(private_node_, background_),
@@ -187,18 +188,22 @@ void NodeCore::reload(std_srvs::Trigger::Response& response) {
     const XmlRpc::XmlRpcValue values = all_parameters(private_node_);
     const ParameterGroup all = table_.group(values);
     std::vector<std::string> misspelt = all.misspelt();
-    std::vector<ToolParameters> parameters = parse_tools(all, misspelt);
+    std::vector<ToolParameters> parameters = parse_tools(all);
     std::vector<Tool> tools = load_tools(parameters, private_node_);
-    const ToolChanges changes = compare_tools(tools_, tools);
+    ToolChanges changes = compare_tools(tools_, tools);
     for (std::size_t tool = 0; tool < tools.size(); ++tool) {  // An unchanged one keeps its fault.
       const bool is_refused = !changes.kept[tool] && !tools[tool].fault.empty();
       if (is_refused) throw ToolError(tools[tool].fault);
     }
     in_node_thread([&] {  // Before a tool is released: a list may be refused.
-      if (table_.read_lists(values)) running_->parameters_changed();
+      const std::vector<std::string> lists = table_.read_lists(values);
+      for (const std::string& list : lists) changes.summary += "; " + list;
+      if (!lists.empty()) running_->parameters_changed();
     });
+    const std::function<void()> take_over = running_->prepare_tools(tools, changes.kept);
+    live_parameters_.publish();
     running_->release_tools(changes.kept);
-    in_node_thread([&] { exchange_tools(tools, parameters, misspelt, changes.kept); });
+    in_node_thread([&] { exchange_tools(tools, parameters, misspelt, take_over); });
     response.success = true;
     response.message = plain_text(changes.summary, kLongestMessage);
     ROS_INFO("tools are reloaded: %s", response.message.c_str());
@@ -209,13 +214,13 @@ void NodeCore::reload(std_srvs::Trigger::Response& response) {
 }
 
 void NodeCore::exchange_tools(std::vector<Tool>& tools, std::vector<ToolParameters>& parameters,
-                              std::vector<std::string>& misspelt, const KeptTools& kept) {
-  running_->prepare_tools(parameters);
+                              std::vector<std::string>& misspelt,
+                              const std::function<void()>& take_over) {
   try {
     tools_.swap(tools);
     parameters_.misspelt.swap(misspelt);
     parameters_.tools.swap(parameters);
-    running_->tools_changed(kept);
+    take_over();
     warn_of_settings(tools_, parameters_.misspelt);
   } catch (...) {
     broken_ = std::current_exception();
@@ -227,7 +232,7 @@ void NodeCore::exchange_tools(std::vector<Tool>& tools, std::vector<ToolParamete
 void NodeCore::say_last_words(const std::exception& fault) {
   try {
     running_->end(&fault);
-    updater().force_update();
+    diagnostics().publish();
   } catch (const std::exception&) {  // The exception that ends the node is more important.
   }
   ros::WallDuration(1.0).sleep();  // Time for the last messages to be sent.

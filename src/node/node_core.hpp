@@ -8,6 +8,7 @@
 
 #include <deque>
 #include <exception>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,13 +43,14 @@ class OrganNode {
   virtual void reset() = 0;
   /// Called after parameters have changed.
   virtual void parameters_changed() = 0;
-  /// Called in the background thread, before the tools that are not kept are replaced.
+  /// Called in the background thread: makes what takes long or waits for the ROS master, for a new
+  /// list of tools. Adds a fault to a tool that does not work. If it throws, the old tools stay.
+  /// Returns what takes over when NodeCore::tools() are the new tools; if that throws, the node
+  /// breaks down. What the function holds then is destroyed in the background thread.
+  virtual std::function<void()> prepare_tools(std::vector<Tool>& tools, const KeptTools& kept) = 0;
+  /// Called in the background thread, after prepare_tools() and before the tools that are not kept
+  /// are replaced.
   virtual void release_tools(const KeptTools& kept) = 0;
-  /// Gets the parameters of the new tools before they replace the old ones. If it throws, the old
-  /// tools stay.
-  virtual void prepare_tools(const std::vector<ToolParameters>& tools) = 0;
-  /// Called when NodeCore::tools() are the new tools. If it throws, the node breaks down.
-  virtual void tools_changed(const KeptTools& kept) = 0;
 
   /// Called once, after all others: tells the subscribers that the node ends. `fault`: the
   /// exception because of which it ends, or null.
@@ -100,7 +102,7 @@ class NodeCore {
            OrganNodeParameters& parameters, const ParameterTable& table);
 
   MessageLoop& loop() { return loop_; }
-  OrganIntake::Threads organ_threads() { return {loop_.queue(), builder_, background_}; }
+  OrganIntake::Threads organ_threads() { return {loop_.queue(), builder_, inspector_}; }
   /// Starts a thread for work that no step waits for, and returns its queue. The thread ends before
   /// run() returns.
   ros::CallbackQueue& start_thread() { return threads_.emplace_back().queue(); }
@@ -109,7 +111,8 @@ class NodeCore {
   ros::NodeHandle& private_node() { return private_node_; }
   const std::vector<Tool>& tools() const { return tools_; }
   std::vector<Tool>& tools() { return tools_; }
-  diagnostic_updater::Updater& updater() { return diagnostics_.updater(); }
+  DiagnosticTasks& diagnostics() { return diagnostics_.tasks(); }
+  ros::CallbackQueue& master_queue() { return diagnostics_.master_queue(); }
 
   /// Runs the node until ROS shuts down or `control` stops it. When this returns or throws, all
   /// threads have ended. Throws what OrganNode::start() throws, and an exception that the node
@@ -127,12 +130,14 @@ class NodeCore {
   void end_threads();
   void reload(std_srvs::Trigger::Response& response);
   void exchange_tools(std::vector<Tool>& tools, std::vector<ToolParameters>& parameters,
-                      std::vector<std::string>& misspelt, const KeptTools& kept);
+                      std::vector<std::string>& misspelt, const std::function<void()>& take_over);
   void say_last_words(const std::exception& fault);
 
   MessageLoop loop_;
   std::deque<QueueThread> threads_;
-  ros::CallbackQueue &background_ = start_thread(), &builder_ = start_thread();
+  // The background thread may wait for the ROS master. So it inspects no surfaces.
+  ros::CallbackQueue &background_ = start_thread(), &builder_ = start_thread(),
+                     &inspector_ = start_thread();
   ros::NodeHandle node_;
   ros::NodeHandle private_node_;
   OrganNodeParameters& parameters_;

@@ -3,12 +3,14 @@
 #include <organ_collision/ContactArray.h>
 #include <ros/names.h>
 
+#include <functional>
+#include <limits>
+#include <string>
+
 #include "common/messages/conversions.hpp"
-#include "common/messages/failure_log.hpp"
 #include "haptics/places.hpp"
 #include "haptics/proxy_publisher.hpp"
 #include "haptics/topic_names.hpp"
-#include "test/refusals.hpp"
 
 namespace organ_collision {
 namespace {
@@ -40,26 +42,60 @@ TEST(VertexForces, AForceIsDividedByTheBarycentricCoordinates) {
   EXPECT_EQ(to_eigen(found.forces[3]), Vector3d(0.0, -1.0, -2.0));
 }
 
-TEST(PairNames, AreLegalNamesOfTheGraph) {
-  PairNames names;
-  EXPECT_EQ(names.of("Liver_2", "hook"), "Liver_2/hook");
-  EXPECT_EQ(names.of("Liver_2", "hook"), "Liver_2/hook");
-  EXPECT_EQ(names.of("left lobe", "robot1/hook"), "left_lobe/robot1_hook");
-  EXPECT_EQ(names.of("2", "_x"), "organ_2/tool__x");
-  EXPECT_EQ(names.of("", "~"), "organ_/tool__");
-  for (const char* name : {"9-7", "f\xC3\xB6ie", " ", "a\nb", "..", "://"}) {
-    std::string error;
-    EXPECT_TRUE(ros::names::validate(names.of(name, name), error)) << error;
+// Each row breaks one number of a report whose numbers may leave the node.
+TEST(FaultOf, IsWhatIsNotFiniteOrExceedsItsLimitOrIsNoTipOfTheHand) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  ToolParameters tool;
+  tool.name = "hook";
+  tool.radius = 0.003;
+  tool.tip_offset = {0.0, 0.0, 0.02};
+  ProxyAnswer answer;
+  answer.contacts.emplace_back();
+  const struct {
+    const char* words;
+    std::function<void(ProxyReport&)> breaks;
+    double before;  ///< [N], [N m] what left last
+  } rows[] = {
+      {"", [](auto&) {}, 0.0},
+      {"force is 3.5 N; at most 3 N", [](auto& r) { r.forces[0].force.z() = 3.5; }, 0.0},
+      {"", [](auto& r) { r.forces[0].force.z() = 3.5; }, 3.5},
+      {"torque is 0.13 N m", [](auto& r) { r.forces[0].torque.y() = -0.12; }, 0.1},
+      {"force is nan", [](auto& r) { r.forces[0].force.x() = kNan; }, 100.0},
+      {"torque is inf", [](auto& r) { r.forces[0].torque.x() = kUnlimited; }, 100.0},
+      {"not a finite", [](auto& r) { r.forces[0].on_faces[0].force.x() = kNan; }, 0.0},
+      {"not a finite", [](auto& r) { r.center.y() = kNan; }, 0.0},
+      {"not a finite", [&](auto&) { answer.proxy.axis.tip.z() = kNan; }, 0.0},
+      {"not a finite", [&](auto&) { answer.contacts[0].contact.normal.z() = kNan; }, 0.0},
+      {"2e+06 m from the tip", [](auto& r) { r.tip_frame->translation().x() += 2e6; }, 0.0},
+      {"nan m from the tip", [](auto& r) { r.tip_frame->linear()(0, 2) = kNan; }, 0.0},
+  };
+  for (const auto& row : rows) {
+    ProxyReport report{tool, "world", ros::Time(3, 7), ContactArray::OK, ""};
+    report.limits = {3.0, 0.1, 300.0, 10.0};
+    report.forces = {{"liver", "liver_frame", 4, {0.0, 0.0, 2.0}, {0.05, 0.0, 0.0}}};
+    report.forces[0].on_faces = {
+        {0, kShaft, {7, 3, 9}, {0.5, 0.25, 0.25}, Vector3d::Zero(), {0.0, 0.0, 2.0}}};
+    report.hand = ToolPose{{{0.0, 0.0, 0.3}, {0.0, 0.0, 0.02}}};
+    report.tip_frame = Eigen::Isometry3d::Identity();
+    const ProxyAnswer whole = answer;
+    report.answer = &answer;
+    row.breaks(report);
+    const std::string fault = fault_of(report, row.before, row.before);
+    EXPECT_NE(fault.find(row.words), std::string::npos) << row.words << ": " << fault;
+    EXPECT_EQ(fault.empty(), std::string(row.words).empty()) << fault;
+    answer = whole;
   }
 }
 
-TEST(PairNames, TwoThatWouldShareTopicsAreRefused) {
-  PairNames names;
-  names.of("left lobe", "hook");
-  expect_words(refusal_by<Rejection>([&] { names.of("left_lobe", "hook"); }),
-               {"left_lobe/hook belong to organ 'left lobe'"});
-  EXPECT_EQ(names.of("left lobe", "hook"), "left_lobe/hook");
-  EXPECT_EQ(names.of("left_lobe", "grasper"), "left_lobe/grasper");
+TEST(PairNames, AreLegalNamesOfTheGraph) {
+  EXPECT_EQ(pair_graph_name("Liver_2", "hook"), "Liver_2/hook");
+  EXPECT_EQ(pair_graph_name("left lobe", "robot1/hook"), "left_lobe/robot1_hook");
+  EXPECT_EQ(pair_graph_name("2", "_x"), "organ_2/tool__x");
+  EXPECT_EQ(pair_graph_name("", "~"), "organ_/tool__");
+  for (const char* name : {"9-7", "f\xC3\xB6ie", " ", "a\nb", "..", "://"}) {
+    std::string error;
+    EXPECT_TRUE(ros::names::validate(pair_graph_name(name, name), error)) << error;
+  }
 }
 
 }  // namespace

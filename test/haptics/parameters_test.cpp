@@ -1,5 +1,4 @@
-// The tables of parameters of haptic_proxy and organ_mesh_adapter.
-#include "adapters/mesh_adapter_parameters.hpp"
+// The table of parameters of haptic_proxy.
 #include "haptics/haptic_proxy_parameters.hpp"
 #include "test/node/parameters/parameter_tables.hpp"
 #include "test/proof/trials.hpp"
@@ -18,24 +17,9 @@ XmlRpcValue legal_parameters<HapticProxyParameters>() {
   return all;
 }
 
-template <>
-XmlRpcValue legal_parameters<MeshAdapterParameters>() {
-  XmlRpcValue all;
-  all["organs"].setSize(0);
-  return all;
-}
-
 INSTANTIATE_TYPED_TEST_SUITE_P(HapticProxy, ParameterTableTest, HapticProxyParameters);
-INSTANTIATE_TYPED_TEST_SUITE_P(MeshAdapter, ParameterTableTest, MeshAdapterParameters);
 
 namespace {
-
-XmlRpcValue organ(const std::string& name) {
-  XmlRpcValue organ;
-  organ["name"] = name;
-  organ["topic"] = "sim/" + name;
-  return organ;
-}
 
 XmlRpcValue kept(const XmlRpcValue& organ, const XmlRpcValue& side) {
   XmlRpcValue entry;
@@ -56,42 +40,21 @@ TEST(HapticParameters, AreTaken) {
   all["keep"][0] = kept("left bladder", "inside");
   all["keep"][1] = kept("colon", "either");
   all["keep"][2] = kept("liver", "outside");
-  all["keep"][2]["sides"] = "inside";
   const auto with = parse_parameters<HapticProxyParameters>(all);
   EXPECT_EQ(with.keep, (std::map<std::string, Side>{{"left bladder", Side::kInside},
                                                     {"colon", Side::kUnknown},
                                                     {"liver", Side::kOutside}}));
-  ASSERT_EQ(with.misspelt.size(), 1U);
-  expect_words(with.misspelt[0], {"~keep[2]/sides ", "'side'"});
-
-  XmlRpcValue adapter;
-  adapter["collision_node"] = "/theatre/collisions";
-  adapter["organs"][0] = organ("liver");
-  adapter["organs"][1] = organ("spleen");
-  adapter["organs"][1]["frame"] = "/spleen_frame";
-  adapter["organs"][1]["vertices_topic"] = "/sim/points";
-  adapter["organs"][1]["frame_id"] = "liver";
-  const MeshAdapterParameters meshes = parse_parameters<MeshAdapterParameters>(adapter);
-  EXPECT_EQ(meshes.collision_node, "/theatre/collisions");
-  ASSERT_EQ(meshes.organs.size(), 2u);
-  EXPECT_EQ(meshes.organs[0].name, "liver");
-  EXPECT_EQ(meshes.organs[0].topic, "sim/liver");
-  EXPECT_EQ(meshes.organs[0].frame, "");
-  EXPECT_EQ(meshes.organs[0].vertices_topic, "");
-  EXPECT_EQ(meshes.organs[1].frame, "spleen_frame");
-  EXPECT_EQ(meshes.organs[1].vertices_topic, "/sim/points");
-  ASSERT_EQ(meshes.misspelt.size(), 1u);
-  expect_words(meshes.misspelt[0], {"~organs[1]/frame_id ", "'frame'"});
-  XmlRpcValue without_organs;
-  without_organs["collision_node"] = "liver";
-  EXPECT_THROW(parse_parameters<MeshAdapterParameters>(without_organs), ParameterError);
 }
 
 TEST(HapticParameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
   EXPECT_EQ(refusal_of<HapticProxyParameters>("frame", "/"),
             "~frame is '/'; must be the name of a TF frame");
   EXPECT_EQ(refusal_of<HapticProxyParameters>("clearance", -1.5),
-            "~clearance is '-1.5'; must be a number, above 0, up to 0.1");
+            "~clearance is '-1.5'; must be a number, 1e-05 to 0.1, or a list of groups of organ, "
+            "link and value");
+  expect_words(refusal_of<HapticProxyParameters>("clearance", 9e-6), {"1e-05 to 0.1"});
+  expect_words(refusal_of<HapticProxyParameters>("clearance", kept("liver", "inside")),
+               {"~clearance is the group", "1e-05 to 0.1, or a list of groups"});
   EXPECT_EQ(refusal_of<HapticProxyParameters>("max_force", 0),
             "~max_force is '0'; must be a number, above 0, up to 10000, or .inf");
   XmlRpcValue keep;
@@ -99,6 +62,17 @@ TEST(HapticParameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
             "~keep is the text 'inside'; must be a list of groups of organ and side");
   keep[0] = kept("colon", "left");
   expect_words(refusal_of<HapticProxyParameters>("keep", keep), {"~keep[0]/side is 'left'"});
+  const std::string legal = "must be one of outside, inside, either";
+  keep[0] = kept("colon", 1);
+  expect_words(refusal_of<HapticProxyParameters>("keep", keep),
+               {"~keep[0]/side is the number '1'; " + legal});
+  keep[0] = XmlRpcValue();
+  keep[0]["name"] = "colon";
+  expect_words(refusal_of<HapticProxyParameters>("keep", keep), {"~keep[0]/name is no parameter"});
+  XmlRpcValue no_side;
+  no_side[0]["organ"] = "colon";
+  expect_words(refusal_of<HapticProxyParameters>("keep", no_side),
+               {"~keep[0]/side is missing; " + legal});
   keep[0] = kept("", "inside");
   expect_words(refusal_of<HapticProxyParameters>("keep", keep), {"~keep[0]/organ is ''"});
   keep[0] = keep[1] = kept("colon", "inside");
@@ -108,41 +82,6 @@ TEST(HapticParameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
   tools[1]["name"] = "left_hook";  // Its topics would have the same names.
   expect_words(refusal_of<HapticProxyParameters>("tools", tools),
                {"~tools has 'left hook' and 'left_hook'"});
-  expect_words(refusal_of<MeshAdapterParameters>("collision_node", "a b"),
-               {"~collision_node is 'a b'", "not private"});
-  const struct {
-    const char* name;  ///< of a member of the second organ
-    XmlRpcValue value;
-    std::vector<std::string> words;
-  } rows[] = {
-      {"name", "", {"not empty"}},
-      {"name", "liver", {"liver", "unique"}},
-      {"name", std::string(257, 'x'), {"256 bytes"}},
-      {"frame", "a\nb", {"control characters"}},
-      {"frame", "", {"not empty"}},
-      {"frame", "/", {"'/'", "TF frame"}},
-      {"topic", 3, {"'3'", "text"}},
-      {"topic", "sim liver", {"sim liver", "name"}},
-      {"topic", "~mesh", {"'~mesh'", "not private"}},
-      {"topic", "sim/liver", {"sim/liver", "unique"}},
-      {"topic", "sim/liver_points", {"unique"}},
-      {"vertices_topic", "sim/spleen", {"sim/spleen", "unique"}},
-      {"vertices_topic", "", {"not empty"}},
-      {"scale", 0, {"'0'", "above 0"}},
-      {"scale", -0.001, {"above 0"}},
-      {"scale", kUnlimited, {"above 0"}},
-      {"scale", "1e-3", {"without quotes"}},
-  };
-  for (const auto& row : rows) {
-    XmlRpcValue organs;
-    organs[0] = organ("liver");
-    organs[0]["vertices_topic"] = "sim/liver_points";
-    organs[1] = organ("spleen");
-    organs[1][row.name] = row.value;
-    const std::string refusal = refusal_of<MeshAdapterParameters>("organs", organs);
-    expect_words(refusal, {std::string("~organs[1]/") + row.name});
-    expect_words(refusal, row.words);
-  }
 }
 
 XmlRpcValue clearance(const char* organ, const char* link, double value) {
@@ -246,7 +185,9 @@ TEST(HapticParameters, AListOfClearancesStaysUntilAnotherOneOrANumberComes) {
   table.change(change);
   EXPECT_EQ(clearance_of(p, "liver", "jaw"), 2e-3);
   all["clearance"][0]["value"] = 3e-3;
-  EXPECT_TRUE(table.read_lists(all));
+  all["keep"][0] = kept("liver", "inside");
+  EXPECT_EQ(table.read_lists(all).size(), 2u);
+  EXPECT_EQ(p.keep, (std::map<std::string, Side>{{"liver", Side::kInside}}));
   EXPECT_EQ(clearance_of(p, "liver", "jaw"), 3e-3);
   all["clearance"][0]["link"] = "jaws";
   EXPECT_THROW(table.read_lists(all), ParameterError);
@@ -257,6 +198,15 @@ TEST(HapticParameters, AListOfClearancesStaysUntilAnotherOneOrANumberComes) {
     EXPECT_THROW(table.read_lists(all), ParameterError);
     EXPECT_EQ(clearance_of(p, "liver", "jaw"), 3e-3) << "a refused number leaves the list";
   }
+  all["clearance"] = 6e-4;
+  all["keep"][0]["sides"] = "either";
+  expect_words(refusal_by<ParameterError>([&] { table.read_lists(all); }), {"~keep[0]/sides"});
+  EXPECT_EQ(clearance_of(p, "liver", "jaw"), 3e-3) << "what is refused leaves the other list";
+  EXPECT_EQ(p.keep.size(), 1u);
+  XmlRpcValue without = legal_parameters<HapticProxyParameters>();
+  EXPECT_EQ(table.read_lists(without),
+            (std::vector<std::string>{"clearance is default", "keep is default"}));
+  EXPECT_TRUE(p.keep.empty());
   change["clearance"] = 7e-4;
   table.change(change);
   EXPECT_EQ(clearance_of(p, "liver", "jaw"), 7e-4);

@@ -198,6 +198,29 @@ TEST_F(ToolProxyTest, ALowerLimitAndTheEndOutrankTheRate) {
   }
 }
 
+// The simulator sends no shape any more.
+TEST_F(ToolProxyTest, OfAToolInLockstepALowerLimitHoldsAtOnceWithoutAShape) {
+  for (const bool in_lockstep : {true, false}) {
+    tool_.parameters.lockstep = in_lockstep;
+    ToolProxy proxy(tool_, parameters_);
+    EXPECT_FALSE(proxy.lower(now_)) << "there is no answer";
+    press(proxy, -0.01);
+    const HapticProxyParameters before = parameters_;
+    EXPECT_FALSE(proxy.lower(now_)) << "the force is within its limit";
+    parameters_.max_force = 0.5;
+    proxy.update_settings();
+    const auto lowered = proxy.lower(now_);
+    ASSERT_EQ(lowered.has_value(), in_lockstep);
+    if (!lowered) continue;
+    EXPECT_NEAR(force(*lowered), 0.5, kTolerance);
+    EXPECT_STREQ(lowered->clipped_by, names::kMaxForce);
+    EXPECT_EQ(fault_of(*lowered, 0.0, 0.0), "");
+    EXPECT_FALSE(proxy.lower(now_));
+    parameters_ = before;
+    EXPECT_NEAR(force(follow(proxy, -0.01)), spring(-0.01), kTolerance) << "the next shape";
+  }
+}
+
 TEST_F(ToolProxyTest, WhenTheProxyIsPlacedAnewTheReasonIsTold) {
   ToolProxy proxy(tool_, parameters_);
   press(proxy, -0.01);
@@ -393,15 +416,18 @@ TEST_F(ToolProxyTest, TheLagOfAFrameIsThatOfItsPoseAndNotOfAMeshThatWasSentLongA
   scene_.motions.resize(1);
   TissueMotion& motion = scene_.motions[0];
   ProxyOrgan guarded;
-  guard_lag(scene_, 0, guarded);
-  EXPECT_FALSE(guarded.advance) << "the organ rests";
+  tell_motion(scene_, 0, true, true, guarded);
+  EXPECT_FALSE(guarded.advance || guarded.approach) << "the organ rests";
   motion.T_before = scene_.organs[0].T_organ_proxy * Eigen::Translation3d(0.0, 0.0, 1e-4);
   motion.frame_lag_sec = 0.02;
-  guard_lag(scene_, 0, guarded);
-  ASSERT_TRUE(guarded.advance);
+  tell_motion(scene_, 0, true, true, guarded);
+  ASSERT_TRUE(guarded.advance && guarded.approach);
   const double speed = tissue_velocity(scene_, 0, contact).z();
   EXPECT_GT(speed, 1e-4);
   EXPECT_NEAR(guarded.advance(contact), 0.02 * speed, 1e-12);
+  EXPECT_NEAR(guarded.approach(contact), speed, 1e-12);
+  EXPECT_NEAR(guarded.most_advance, 0.02 * speed, 1e-12);
+  EXPECT_NEAR(guarded.most_approach, speed, 1e-12);
 }
 
 /// Tissue rises by 31 mm/s from 10 mm below a hand, in shapes at 60 Hz.

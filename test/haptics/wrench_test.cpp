@@ -63,6 +63,7 @@ class Judge {
   /// `mesh_stamp`: of their shapes.
   void check(const ProxyReport& report, const std::vector<ProxyOrgan>& organs, ros::Time mesh_stamp,
              const Isometry3d& T_world_frame, const WrenchLimits& limits, Time now) {
+    EXPECT_EQ(fault_of(report, before_.force.norm(), before_.torque.norm()), "");
     const ProxyState state = state_of(report);
     check_limits(state, T_world_frame, limits, now);
     Load of_organs, on_tissue;
@@ -81,7 +82,7 @@ class Judge {
     const Load whole = load_of(state.wrench);
     EXPECT_LE((of_organs.force - whole.force).norm(), kRounding);
     EXPECT_LE((of_organs.torque - whole.torque).norm(), kRounding);
-    const Load at_tip = from_tip(report);
+    const Load at_tip = report.tip_frame ? from_tip(report) : whole;
     EXPECT_LE((at_tip.force - whole.force).norm(), kRounding);
     EXPECT_LE((at_tip.torque - whole.torque).norm(), kRounding);
     if (!is_free_ && report.answer && !report.is_fading) expect_lever(on_tissue, whole, report);
@@ -216,7 +217,6 @@ class Episode {
       stamp_ += ros::Duration(1e-3);
       const Timed<ToolPose> pose{moved(hand.next()), stamp_};
       const ProxyScene scene = present(tick);
-      proxy.set_tip_frame(random_frame(random_));
       const ProxyReport told = report(proxy, pose, scene);
       WrenchLimits limits = wrench_limits(parameters_);
       if (tool_.parameters.lockstep && told.answer) {
@@ -272,16 +272,34 @@ class Episode {
     return scene;
   }
 
-  ProxyReport report(ToolProxy& proxy, const Timed<ToolPose>& pose, const ProxyScene& scene) {
+  /// The pose of the tip frame, which turns freely.
+  Isometry3d tip_in(const ToolPose& pose) const {
+    Isometry3d tip = random_frame(random_);
+    tip.translation() =
+        tool_.parameters.has_shaft() ? pose.axis.tip : pose.links.front().translation();
+    return tip;
+  }
+
+  ProxyReport report(ToolProxy& proxy, Timed<ToolPose> pose, const ProxyScene& scene) {
     try {
+      if (refused_.chance(0.05)) {
+        const Vector3d far = refused_.chance(0.5) ? Vector3d(refused_.scale(2e6, 1e20), 0.0, 0.0)
+                                                  : Vector3d(NAN, 0.0, 0.0);
+        pose.value.axis.tip += far;
+        for (Isometry3d& link : pose.value.links) link.translation() += far;
+      }
+      const Isometry3d tip = tip_in(pose.value);
       if (silent_ > 0) throw Rejection(ContactArray::NO_TRANSFORM, "no pose", "the hand is silent");
-      return proxy.follow(pose, scene, now_);
+      return proxy.follow(pose, scene, now_, tip);
     } catch (const Rejection& rejection) {
       return proxy.lose(rejection.status(), rejection.what(), "frame", now_);
+    } catch (const std::invalid_argument& error) {
+      return proxy.lose(ContactArray::INVALID_REQUEST, error.what(), "frame", now_);
     }
   }
 
   Random& random_;
+  Random refused_{48};  ///< of poses that are refused
   oracle::ProxyScene scene_;
   Tool tool_;
   HapticProxyParameters parameters_;

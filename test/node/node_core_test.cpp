@@ -21,9 +21,8 @@ class CountingNode final : public OrganNode {
   std::optional<SteadyTime> next_deadline() override { return deadline; }
   void reset() override {}
   void parameters_changed() override {}
+  std::function<void()> prepare_tools(std::vector<Tool>&, const KeptTools&) override { return {}; }
   void release_tools(const KeptTools&) override {}
-  void prepare_tools(const std::vector<ToolParameters>&) override {}
-  void tools_changed(const KeptTools&) override {}
   void end(const std::exception*) override {}
 
   int watched = 0, handled = 0;

@@ -7,7 +7,7 @@ import sys
 import time
 import unittest
 
-from dynamic_reconfigure.msg import DoubleParameter
+from dynamic_reconfigure.msg import Config, DoubleParameter
 from dynamic_reconfigure.srv import Reconfigure, ReconfigureRequest
 from geometry_msgs.msg import PoseStamped, WrenchStamped
 from organ_collision.msg import OrganMesh, ProxyState, VertexForces
@@ -250,12 +250,36 @@ class HapticProxyTest(ProxyCase):
         self.addCleanup(self.reload)
         self.addCleanup(rospy.set_param, name, before)
         rospy.set_param(name, before + [{'organ': 'vein', 'link': 'shaft', 'value': 0.004}])
-        self.assertTrue(self.reload().success)
+        updates = Log(self.node + '/parameter_updates', Config)
+        wait_until(lambda: updates.messages, 'the latched values')
+        answer = self.reload()
+        self.assertTrue(answer.success)
+        for words in ('clearance is {', 'organ:vein', 'keep is {'):
+            self.assertIn(words, answer.message)
+        wait_until(lambda: len(updates.messages) > 1, 'new values for clients that send all of them')
         self.hold_until('needle', DEEP, at(0.004), 'the larger clearance')
         rospy.set_param(name, before + [{'link': 'shafts', 'value': 0.004}])
         answer = self.reload()
         self.assertFalse(answer.success)
         self.assertIn("nearest is 'shaft'", answer.message)
+
+    def test_topics_end_with_their_organ_and_its_name_is_free(self):
+        """Organs with new names come and go. One comes with the name of one that has just gone."""
+        def topics():
+            return {name for name, _ in rospy.get_published_topics(self.node) if name.endswith('/needle/wrench')
+                    and '/short_lived' in name}
+
+        self.hands.hold('needle', AIR)
+        for i in range(12):
+            self.organ = 'short-lived %d' % (i // 2) if i % 2 else 'short lived %d' % (i // 2)
+            self.send_sheet()
+            log = Log('%s/short_lived_%d/needle/wrench' % (self.node, i // 2), WrenchStamped)
+            self.hold_until('needle', AIR, lambda wrench: True, 'the wrench of ' + self.organ, log)
+            self.remove(self.organ)
+            log.subscriber.unregister()
+        self.assertGreater(len(topics()), 0)
+        wait_until(lambda: self.hands.hold('needle', AIR) or not topics(), topics)
+        wait_until(lambda: 'unanswered, name taken' not in self.diagnostics.values, 'no refusal')
 
     def test_a_tool_that_is_removed_lets_go(self):
         self.send_sheet()

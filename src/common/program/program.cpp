@@ -6,6 +6,7 @@
 #include <ros/this_node.h>
 
 #include <algorithm>
+#include <csignal>
 #include <exception>
 #include <iostream>
 #include <sstream>
@@ -48,6 +49,18 @@ constexpr char kNotListed[] =
     "the ROS master does not list this node any more, as after a restart of the master: new nodes "
     "cannot connect to it. Restart the node";
 
+constexpr char kNoClock[] =
+    "use_sim_time is true, but no time has come on /clock: nothing that follows ROS time goes on. "
+    "Start what publishes /clock, or set use_sim_time to false and restart the node";
+/// [s] Other nodes may still be starting. Then, the log repeats that there is no time.
+constexpr int kClockStart = 3, kClockRepetition = 10;
+
+/// roscpp takes SIGINT only. A second signal ends the program at once.
+void on_sigterm(int signal) {
+  ros::requestShutdown();
+  std::signal(signal, SIG_DFL);
+}
+
 constexpr char kParameters[] =
     "Parameters, private (~), with default and legal values; live: can change while the node runs";
 constexpr char kToolKeys[] =
@@ -83,6 +96,7 @@ int run_program(int argc, char** argv, const ProgramHelp& help, const std::strin
                 std::uint32_t options) {
   if (const auto exit_code = answer_arguments(argc, argv, help)) return *exit_code;
   ros::init(argc, argv, name, options);
+  std::signal(SIGTERM, on_sigterm);
   const ros::NodeHandle node;  // Without any node handle, ROS_FATAL below would not reach /rosout.
   try {
     run(node, ros::NodeHandle("~"));
@@ -93,23 +107,41 @@ int run_program(int argc, char** argv, const ProgramHelp& help, const std::strin
   return 0;
 }
 
+void DiagnosticTasks::publish() {
+  diagnostic_msgs::DiagnosticArray array;
+  const boost::mutex::scoped_lock lock(lock_);
+  for (const auto& task : getTasks()) {
+    diagnostic_updater::DiagnosticStatusWrapper status;
+    status.hardware_id = "none";
+    task.run(status);
+    status.name = name_.substr(1) + ": " + task.getName();
+    array.status.push_back(status);
+  }
+  array.header.stamp = ros::Time::now();
+  topic_.publish(array);
+}
+
 Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
                          double period_sec)
-    : updater_(node, private_node, private_node.getNamespace()), master_(kListed) {
-  updater_.setHardwareID("none");
-  updater_.add("master", [this](auto& status) { diagnose_master(status); });
-  // The updater's own timer follows simulated time, and would stop when simulated time stops.
-  publish_ =
-      private_node.createWallTimer(ros::WallDuration(period_sec),
-                                   [this](const ros::WallTimerEvent&) { updater_.force_update(); });
+    : tasks_(node, private_node.getNamespace()), master_(kListed) {
+  tasks_.add("master", [this](auto& status) { diagnose_master(status); });
+  tasks_.add("clock", [](auto& status) {
+    const bool has_time = ros::Time::now() > ros::Time();
+    status.summary(has_time ? 0 : 1, has_time ? "it goes" : kNoClock);
+  });
+  // A timer of ROS time would stop when simulated time stops.
+  publish_ = private_node.createWallTimer(ros::WallDuration(period_sec),
+                                          [this](const ros::WallTimerEvent&) { tasks_.publish(); });
   ask_ = on_queue(ros::NodeHandle(), asking_.queue())
              .createWallTimer(kMasterPeriod, [this](const ros::WallTimerEvent&) { ask_master(); });
 }
 
 /// Asks the master whether it lists this node, until a restart of the master is noticed. Later
 /// answers would mislead: a topic that registers after the restart, such as that of a new tool,
-/// makes the master list the node again, but without its older topics.
+/// makes the master list the node again, but without its older topics. Looks after the clock, too.
 void Diagnostics::ask_master() {
+  without_clock_ = ros::Time::now() > ros::Time() ? 0 : without_clock_ + 1;
+  if (without_clock_ % kClockRepetition == kClockStart) ROS_WARN("%s", kNoClock);
   if (master_ == kNotListed) return;
   XmlRpc::XmlRpcValue arguments, response, uri;
   arguments[0] = arguments[1] = ros::this_node::getName();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/message_traits.h>
 #include <ros/node_handle.h>
@@ -54,29 +55,51 @@ std::string service_type() {
 }
 
 /// The main function of a node. If there are arguments to answer, it answers them. Otherwise, it
-/// starts ROS, calls `run`, and logs an exception that `run` throws. Returns the exit code. `name`:
-/// the node's default name. `options`: flags of ros::init_options.
+/// starts ROS, calls `run`, and logs an exception that `run` throws. SIGTERM ends ROS as SIGINT
+/// does. Returns the exit code. `name`: the node's default name. `options`: flags of
+/// ros::init_options.
 int run_program(int argc, char** argv, const ProgramHelp& help, const std::string& name,
                 void (*run)(const ros::NodeHandle& node, const ros::NodeHandle& private_node),
                 std::uint32_t options = 0);
 
-/// What a node publishes on /diagnostics: the tasks that its parts add, and whether the ROS master
-/// still lists this process. A restarted master does not list it, because roscpp does not register
-/// again. The master is asked once a second, in a thread of its own.
+/// The tasks of a node on /diagnostics. This is not diagnostic_updater::Updater, which reads a
+/// parameter in each update. For that, it waits for a mutex of roscpp, which a thread that sets a
+/// parameter holds until the ROS master answers.
+class DiagnosticTasks : public diagnostic_updater::DiagnosticTaskVector {
+ public:
+  /// `name`: of the node.
+  DiagnosticTasks(ros::NodeHandle node, const std::string& name)
+      : name_(name), topic_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 1)) {}
+
+  /// Calls all tasks, and publishes what they say.
+  void publish();
+
+ private:
+  std::string name_;
+  ros::Publisher topic_;
+};
+
+/// What a node publishes on /diagnostics: the tasks that its parts add, whether simulated time has
+/// begun, and whether the ROS master still lists this process. A restarted master does not list it,
+/// because roscpp does not register again. The master is asked once a second, in a thread of its
+/// own.
 class Diagnostics {
  public:
   /// `period_sec`: the wall time between two messages. They are published in the thread that calls
   /// the callbacks of `private_node`.
   Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, double period_sec);
 
-  diagnostic_updater::Updater& updater() { return updater_; }
+  DiagnosticTasks& tasks() { return tasks_; }
+  /// The queue of the thread that may wait for the ROS master.
+  ros::CallbackQueue& master_queue() { return asking_.queue(); }
 
  private:
   void ask_master();
   void diagnose_master(diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
-  diagnostic_updater::Updater updater_;
+  DiagnosticTasks tasks_;
   std::atomic<const char*> master_;  ///< what is known of the master
+  int without_clock_ = 0;            ///< [s] how long simulated time has not begun
   QueueThread asking_;
   ros::WallTimer publish_, ask_;
 };

@@ -132,7 +132,7 @@ void make_ros_realtime(const ros::NodeHandle& node, const ros::NodeHandle& priva
   const int priority = private_node.param(kRealtimePriority, 0);
   if (priority == 0) return;
   // roscpp starts its timer thread with the first timer, and keeps it when that timer ends.
-  node.createTimer(ros::Duration(1.0), [](const ros::TimerEvent&) {});
+  node.createSteadyTimer(ros::WallDuration(1.0), [](const ros::SteadyTimerEvent&) {});
   // If the system refuses, nothing is said here, because class Realtime reports it.
   for (const auto& thread : std::filesystem::directory_iterator("/proc/self/task")) {
     make_realtime(std::stoi(thread.path().filename()), priority);
