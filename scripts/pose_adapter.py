@@ -24,13 +24,14 @@ import time
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 import genpy.dynamic
 from geometry_msgs.msg import PoseStamped, TransformStamped
+from organ_collision.poses import checked_pose
 import rospy
 from tf2_msgs.msg import TFMessage
 
 KEYS = {'topic', 'field', 'frame', 'scale', 'child_frame', 'pose_topic', 'repeat_sec'}
+LATEST = 4294967000  # [s] the latest stamp that the nodes take
 QUIET = 1.0  # [s] between two warnings about one source
 NESTING = 4  # levels of fields in which poses are looked for, to name them
-SMALLEST_TURN = 1e-3  # norm of a quaternion below which it has no direction
 
 
 class Refusal(Exception):
@@ -77,14 +78,10 @@ def pose_of(message, field):
         there = poses_in(message)
         raise Refusal('%s has no pose %r; it has %s'
                       % (message._type, field, ', '.join(there) if there else 'no pose, only ' + fields_of(message)))
-    place, rotation = parts(value)
-    place, turn = (place.x, place.y, place.z), (rotation.x, rotation.y, rotation.z, rotation.w)
-    if not all(map(math.isfinite, place + turn)):
-        raise Refusal('%s is not finite: place %s, rotation %s' % (field, place, turn))
-    norm = math.sqrt(sum(part * part for part in turn))
-    if norm < SMALLEST_TURN:
-        raise Refusal('%s has no rotation: the quaternion is %s' % (field, turn))
-    return place, tuple(part / norm for part in turn)
+    try:
+        return checked_pose(*parts(value))
+    except ValueError as wrong:
+        raise Refusal('%s %s' % (field, wrong))
 
 
 def fields_of(message):
@@ -151,6 +148,8 @@ class Source:
         if not frame or frame == self.child:
             raise Refusal('the messages name the frame %r; set `frame`' % frame)
         stamp = getattr(header, 'stamp', rospy.Time()) or now
+        if stamp.secs > LATEST:
+            raise Refusal('the stamp %d s is beyond what TF can take; at most %d s are allowed' % (stamp.secs, LATEST))
         if stamp <= self.stamp:
             if not self.starts_again(now):
                 self.counts['same stamp' if stamp == self.stamp else 'older stamp'] += 1
@@ -189,8 +188,10 @@ class Source:
             now = rospy.Time.now()
             if self.pose is None or time.monotonic() - self.heard > self.repeat_sec:
                 return
+            if now < self.arrival:
+                return
             stamp = self.stamp + (now - self.arrival)
-            if stamp - self.sent >= self.period:
+            if stamp.secs <= LATEST and stamp - self.sent >= self.period:
                 self.send(stamp)
                 self.counts['repeated'] += 1
 

@@ -2,6 +2,7 @@
 """crtk_hand.py before a device that moves an arm as CRTK says: it takes wrenches on body/servo_cf about the tip in its
 axes, and on spatial/servo_cf about the base in the base's axes. Both must do the same work on every motion."""
 
+import signal
 import sys
 import time
 
@@ -51,12 +52,11 @@ class CrtkTest(NodeStarter):
         tissue = TransformStamped(base.header, 'tissue', Transform(Vector3(7, 8, 9), Quaternion(*TISSUE_TURN)))
         self.camera.sendTransform([base, tissue])
 
-    def move(self, place, stamp=None):
+    def move(self, place, stamp=None, rotation=3 * TURN):
         message = PoseStamped()
         message.header.frame_id, message.header.stamp = 'arm_base', rospy.Time.now() if stamp is None else stamp
         message.pose.position.x, message.pose.position.y, message.pose.position.z = place
-        turn = message.pose.orientation
-        turn.x, turn.y, turn.z, turn.w = TURN / np.linalg.norm(TURN)
+        message.pose.orientation = Quaternion(*rotation)
         self.arm.publish(message)
 
     def feel(self, force, torque):
@@ -79,6 +79,8 @@ class CrtkTest(NodeStarter):
         self.move((5, 5, 5))
         wait_until(lambda: poses.last(lambda m: m.pose.position.x == 5), 'the next pose')
         self.assertEqual(last.header.frame_id, 'arm_base')
+        sent = last.pose.orientation
+        np.testing.assert_allclose((sent.x, sent.y, sent.z, sent.w), TURN / np.linalg.norm(TURN), atol=1e-9)
         self.assertFalse(poses.select(lambda m: m.pose.position.x == 9))
 
     def test_wrenches_in_each_convention(self):
@@ -86,7 +88,7 @@ class CrtkTest(NodeStarter):
         self.move(PLACE)
         for force, torque in (((0.3, -0.5, 1.2), (0.02, 0.01, -0.03)), ((3.0, 0.0, 4.0), (0.3, 0.4, 0.0))):
             f, t = 0.5 * np.array(force), 0.5 * np.array(torque)
-            f, t = f * min(1.0, 2.0 / np.linalg.norm(f)), t * min(1.0, 0.05 / np.linalg.norm(t))
+            f = f * min(1.0, 2.0 / np.linalg.norm(f))
             felt = self.feel(force, torque)
             expected = {'body': ('tool_tip', f, t),
                         'spatial': ('arm_base', R @ f, R @ t + np.cross(PLACE, R @ f)),
@@ -108,6 +110,48 @@ class CrtkTest(NodeStarter):
         right, log = 0.5 * matrix(TISSUE_TURN) @ force, self.logs['camera']
         wait_until(lambda: self.tool.publish(wrench(force, torque, 'tissue')) or rospy.sleep(0.02) or log.last(
             lambda m: np.allclose(values(m.wrench.force), right, atol=1e-9)), lambda: log.messages[-3:])
+
+    def test_what_is_sent_is_finite_and_within_the_limits(self):
+        """Whatever poses and wrenches come: turned in any way, far away, with any quaternion, or not finite."""
+        random, odd = np.random.default_rng(4), (np.nan, np.inf, -np.inf, 0.0, 1e200)
+        for _ in range(300):
+            numbers = [random.normal(size=size) * 10.0 ** random.uniform(-4, 4) for size in (3, 4, 3, 3)]
+            if random.random() < 0.3:
+                wrong = numbers[random.integers(4)]
+                wrong[random.integers(len(wrong))] = random.choice(odd)
+            place, rotation, force, torque = numbers
+            self.move(place, rotation=rotation)
+            self.tool.publish(wrench(force, torque))
+            time.sleep(0.003)
+        self.move(PLACE)
+        self.feel((0.0, 1.0, 0.0), (0.0, 0.0, 0.0))
+        for name, log in self.logs.items():
+            sent = np.array([(*values(m.wrench.force), *values(m.wrench.torque)) for m in log.messages])
+            self.assertGreater(len(sent), 50, name)
+            self.assertTrue(np.isfinite(sent).all(), name)
+            self.assertLessEqual(np.linalg.norm(sent[:, :3], axis=1).max(), 2.0 + 1e-9, name)
+            self.assertLessEqual(np.linalg.norm(sent[:, 3:], axis=1).max(), 1.0 + 1e-9, name)
+
+    def test_nothing_follows_the_zero_at_the_end(self):
+        """However it is ended, between which wrenches ever."""
+        rates, signals = (100, 250, 500, 1000), (signal.SIGINT, signal.SIGTERM)
+        ends = [(name, end, Log('/ends/%d' % name, WrenchStamped)) for name, end in enumerate(signals * 8)]
+        for rate in rates:
+            group = [ends.pop() for _ in range(len(signals) * 8 // len(rates))]
+            nodes = [self.start('/ending_%d' % name, {'rate': rate}, 'crtk_hand.py',
+                                arguments=('wrench:=/tool/wrench', 'servo_cf:=/ends/%d' % name)) for name, *_ in group]
+            feel = lambda: self.tool.publish(wrench((0.0, 0.0, 2.0), (0.0, 0.0, 0.0))) or time.sleep(1.0 / rate)
+            wait_until(lambda: feel() or all(log.messages for *_, log in group), 'forces')
+            for node, (_, end, _) in zip(nodes, group):
+                for _ in range(20):
+                    feel()
+                node.send_signal(end)
+            wait_until(lambda: feel() or all(node.poll() is not None for node in nodes), 'the ends')
+            for node, (_, end, log) in zip(nodes, group):
+                self.assertEqual(node.returncode, 0)
+                wait_until(lambda: log.subscriber.get_num_connections() == 0, 'the last message')
+                last = [m.wrench.force.z for m in log.messages[-5:]]
+                np.testing.assert_allclose(last, [1.6, 1.2, 0.8, 0.4, 0.0], atol=1e-9, err_msg='%s, %d Hz' % (end, rate))
 
     def test_without_wrenches_it_lets_go(self):
         """In steps, within 10 ms in its own time; and never with a wrench that is not finite."""

@@ -151,7 +151,7 @@ class GuardedArmTest(LaunchCase):
         return farthest, self.scene.tip()[1]
 
     def test_no_link_comes_near(self):
-        with self.launched('examples/guarded_arm.launch') as launched:
+        with self.launched('examples/guarded_arm.launch', 'clear_params:=false') as launched:
             self.scene.begin()
             farthest, last = self.follow(1.1)
             self.assert_stops_without_rows()
@@ -178,7 +178,7 @@ class GuardedArmTest(LaunchCase):
         wait_until(lambda: self.scene.step(answers=False) or self.scene.steps_of_arm() > stands, 'motion', LONG)
 
     def test_without_rows_it_goes_through_the_liver(self):
-        with self.launched('examples/guarded_arm.launch', 'guard:=false'):
+        with self.launched('examples/guarded_arm.launch', 'guard:=false', 'clear_params:=false'):
             self.scene.begin()
             farthest, _ = self.follow(0.6)
         distances = self.scene.distances().min(axis=0)

@@ -10,6 +10,7 @@ import tempfile
 
 from geometry_msgs.msg import PoseStamped
 from organ_collision.msg import ContactArray, OrganMesh, ProxyState, VertexForces
+import roslaunch
 import roslib.packages
 import rospy
 import rostest
@@ -117,6 +118,28 @@ class LaunchFilesTest(LaunchCase, NodeStarter):
         summary = re.search(r'\nIn \d+ s: (\d+) contacts\. A static test .* missed (\d+) of them', printed)
         self.assertTrue(0 < int(summary[2]) <= int(summary[1]), summary[0])
         self.assertRegex(printed, r"\nThe palpator's hand: [1-9]\d* poses, ")
+
+    def test_no_parameter_of_an_earlier_launch_acts(self):
+        """Unless clear_params is false."""
+        yesterday = {'friction': 0.5, 'max_force_rate': 77.0, 'clearance': [{'organ': 'a', 'value': 0.01}]}
+        for arguments, left in ((), set()), (('clear_params:=false',), set(yesterday)):
+            rospy.set_param('/haptic_proxy', dict(yesterday, tools=[]))
+            with self.launched('launch/haptic_proxy.launch', *arguments):
+                self.check_hands('/haptic_proxy', rospy.get_param('/haptic_proxy/tools'))
+                self.assertEqual(set(rospy.get_param('/haptic_proxy')) & set(yesterday), left)
+        rospy.delete_param('/haptic_proxy')
+
+    def test_every_launch_file_clears_the_parameters_of_its_nodes(self):
+        paths = set().union(*(files(folder, '.launch') for folder in
+                              ('launch', 'examples', 'examples/ambf', 'examples/sofa')))
+        for path in sorted(paths - {'launch/view.launch'}):
+            for clears in (True, False):
+                words = [] if clears else ['clear_params:=false']
+                loaded = roslaunch.config.load_config_default([(os.path.join(PACKAGE, path), words)], None)
+                ours = {node.namespace + node.name for node in loaded.nodes
+                        if node.package == 'organ_collision' or 'load organ_collision/' in node.args}
+                cleared = {name.rstrip('/') for name in loaded.clear_params}
+                self.assertTrue(ours <= cleared if clears else not cleared, (path, ours - cleared))
 
     def test_the_rviz_file_names_displays_that_rviz_has(self):
         (path,) = files('config', '.rviz')

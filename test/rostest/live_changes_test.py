@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 """Tools and parameters change while the node makes steps. What did not change goes on as before."""
 
-import signal
 import sys
 import tempfile
 import threading
@@ -95,8 +94,7 @@ class LiveChangesTest(KeepsContract, ToolCase):
         self.node.diagnostics.wait_for_summary('tools', '~tools is empty')
 
     def test_steps_go_on_while_a_robot_is_read_that_takes_long(self):
-        """The parser of URDF needs a time that grows with the square of the depth. It may take 1.3 s of the
-        processor, and 30 s in all if that is busy."""
+        """The parser of URDF needs seconds for such a depth, and then more than its stack."""
         self.reloaded(shaft('kept'))
         self.step(SHEET, {'kept': at_height(0.05)})
         answers, steps = [], 0
@@ -111,7 +109,7 @@ class LiveChangesTest(KeepsContract, ToolCase):
                 steps += 1
             thread.join()
         self.assertFalse(answers[0].success)
-        self.assertRegex(answers[0].message, 'robot_reader (was ended by signal %d|took more than 30 s)' % signal.SIGPROF)
+        self.assertRegex(answers[0].message, 'robot_reader (was ended by signal|took more than 30 s)')
         self.assertGreater(steps, 2)
         self.assert_no_gap('kept')
         self.assertEqual(self.reloaded(), "removed: 'kept'")
@@ -124,6 +122,8 @@ class LiveChangesTest(KeepsContract, ToolCase):
         tool, = rospy.ServiceProxy(NODE + '/list_tools', ListTools)().tools
         self.assertEqual((tool.first_jaw, tool.second_jaw), (['upper'], ['lower']))
         self.step(SHEET, pinching(0.0065))
+        self.step(SHEET, pinching(0.0055), vertices=True)
+        self.assertEqual(told(), [])
         answer = self.step(SHEET, pinching(0.0055), vertices=True)['pincers']
         wait_until(told, 'the grasp')
         grasped = grasps.last()
@@ -135,17 +135,18 @@ class LiveChangesTest(KeepsContract, ToolCase):
         self.assertLess(grasped.thickness, 0.001)
         self.assertEqual(self.reloaded(shaft('saw'), PINCERS), "unchanged: 'pincers'; new: 'saw'")
         cut = scenes.sheet(0.1, 5)
-        self.step(cut, pinching(0.0055), topology=2)
-        end = self.step(cut, pinching(0.0065), topology=2, vertices=True)['pincers'].header.stamp
+        end = self.step(cut, pinching(0.0055), topology=2)['pincers'].header.stamp
+        self.step(cut, pinching(0.0065), topology=2, vertices=True)
         wait_until(lambda: len(told()) > 1, 'the release')
-        self.assertEqual((grasps.last().header.stamp, list(grasps.last().faces_first)), (end, []))
+        self.assertEqual(grasps.last().header.stamp, end)
         self.assertAlmostEqual(grasps.last().duration_sec, (end - grasped.header.stamp).to_sec(), delta=1e-6)
-        events = [(1, Grasp.GRASPED, 1, ''), (1, Grasp.RELEASED, 2, '')]
+        events = [(1, Grasp.GRASPED, 1, ''), (1, Grasp.RELEASED, 2, 'opened')]
         self.assertEqual(told(), events)
         for number, reason, act in ((2, 'reset', self.node.reset),
                                     (3, 'organ removed', lambda: self.node.remove(self.organ)),
                                     (1, 'tools changed', lambda: self.reloaded(shaft('saw')))):
             self.step(SHEET, pinching(0.0055), topology=1)
+            self.step(SHEET, pinching(0.0055), topology=1, vertices=True)
             wait_until(lambda: told()[-1][1] == Grasp.GRASPED, 'a grasp')
             act()
             wait_until(lambda: told()[-1][1] == Grasp.RELEASED, reason)
@@ -208,7 +209,7 @@ class LiveChangesTest(KeepsContract, ToolCase):
 
     def test_parameters_are_described_with_their_limits(self):
         described = {p['name']: p for p in self.client.get_parameter_descriptions(LIMIT)}
-        self.assertEqual(set(described), set(AT_START) | {'markers_rate', 'surface_rate', 'markers_depth'})
+        self.assertEqual(set(described), set(AT_START) | {'markers_rate', 'surface_rate', 'markers_depth', 'grasp_hold_sec'})
         self.assertEqual((described['rate']['min'], described['rate']['max']), (0.0, 10000.0))
         self.assertEqual(described['tf_timeout_sec']['default'], 0.02)
         for changes in ({'rate': 10001.0, 'publish_regions': True}, {'tf_timeout_sec': float('nan')}):

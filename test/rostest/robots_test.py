@@ -74,12 +74,12 @@ class RobotsTest(LaunchCase):
         self.addCleanup(rospy.delete_param, '/organ_collision/tf_timeout_sec')
         grasps, meshes, shapes = (Log('/organ_collision/' + topic, kind) for topic, kind in (
             ('grasps', Grasp), ('organ_mesh', OrganMesh), ('organ_vertices', OrganVertices)))
-        with self.launched('examples/grasper.launch'):
+        with self.launched('examples/grasper.launch', 'clear_params:=false'):
             wait_until(lambda: len(grasps.messages) > 1, 'a grasp and its end', LONG)
             self.check_robot('urdf/grasper.urdf')
         grasped, released = grasps.messages[:2]
         self.assertEqual([(g.event, g.organ, g.tool, g.grasp, g.reason) for g in (grasped, released)],
-                         [(event, 'fold', 'grasper', 1, '') for event in (Grasp.GRASPED, Grasp.RELEASED)])
+                         [(Grasp.GRASPED, 'fold', 'grasper', 1, ''), (Grasp.RELEASED, 'fold', 'grasper', 1, 'opened')])
         self.assertTrue(0.003 < grasped.thickness < 0.0055, grasped)  # The fold is 4.8 mm thick.
         self.assert_held(grasped, released, meshes.messages[0], shapes.messages)
         answers = self.log.messages

@@ -4,9 +4,12 @@ OpenGL it takes. It accepts a latched mesh that is older than itself. What it sa
 the system says. check_contacts ends with the right exit code."""
 
 import os
+import signal
 import sys
+import time
 
 from diagnostic_msgs.msg import DiagnosticStatus
+from geometry_msgs.msg import Pose, PoseStamped
 from organ_collision.msg import Contact, ContactArray, OrganMesh
 import roslib.packages
 import rospy
@@ -14,7 +17,8 @@ import rostest
 from std_srvs.srv import Trigger
 
 from support.contact_case import ContactCase
-from support.node_client import LIMIT, Diagnostics, NodeClient, is_heard, mesh_message, shaft, wait_until
+from support.node_client import (LIMIT, Diagnostics, Log, NodeClient, TfSender, is_heard, mesh_message, pose_stamped,
+                                 shaft, wait_until)
 from support.processes import NodeStarter, process_of
 from support.tool_over_sheet import RADIUS, SHEET, at_height, depth_at
 
@@ -64,6 +68,8 @@ class StartTest(ContactCase, NodeStarter):
             ({}, (), 'tools', 'missing'),
             ({'tools': [TOOL], 'picker': 'raytrace'}, (), 'picker', 'raytrace', 'feedback', 'select', 'cpu'),
             ({'tools': [TOOL, dict(TOOL, name='other', radius=float('nan'))]}, (), 'tools[1]/radius', 'nan', '0'),
+            ({'tools': [dict(TOOL, raduis=0.004)]}, (), 'tools[0]/raduis is no parameter', "nearest is 'radius'"),
+            ({'tools': [dict(TOOL, radius=5.0)]}, (), 'tools[0]/radius', 'above 0, up to 1'),
             ({'tools': [TOOL], 'gl': 'osmesa'}, driver, 'GALLIUM_DRIVER', 'nonsense', 'llvmpipe', 'softpipe'),
             ({'tools': [TOOL]}, self.without('osmesa_egl'), 'libOSMesa.so.8', 'libEGL.so.1', 'picker: cpu'),
         )):
@@ -72,17 +78,73 @@ class StartTest(ContactCase, NodeStarter):
             self.assert_refused(process, words)
 
     def test_misspelt_names_and_implausible_sizes_are_reported(self):
-        parameters = {'tools': [dict(TOOL, colour='red', radius=5.0)], 'tf_timeout': 0.5, 'publish_region': True}
+        parameters = {'tools': [dict(TOOL, radius=0.5)], 'tf_timeout': 0.5, 'publish_region': True}
         process = self.start(self.name, parameters)
         node = NodeClient(self.name)
         answer = node.query('liver', tool='grasper')  # There is no mesh yet.
         self.assertIn(answer.status, (ContactArray.NO_MESH, ContactArray.UNKNOWN_ORGAN))
         self.assertIn('liver', answer.message)
         printed = self.stop(process)
-        for words in ('tf_timeout ', 'tf_timeout_sec', 'publish_region ', 'colour',
-                      "tool 'grasper' has a radius of 5 m",
-                      'ready: 1 tool,'):
+        for words in ('tf_timeout ', 'tf_timeout_sec', 'publish_region ',
+                      "tool 'grasper' has a radius of 0.5 m", 'ready: 1 tool,'):
             self.assertIn(words, printed)
+
+    def start_each(self, **parameters):
+        """The three nodes, by name. The parameters are those of the nodes with organs."""
+        rows = {'organ_collision_node': dict(parameters, tools=parameters.get('tools', [TOOL])), 'tool_guard': {}}
+        rows['haptic_proxy'] = {key: value for key, value in rows['organ_collision_node'].items() if key != 'rate'}
+        return {self.name + program: self.start(self.name + program, dict(row, diagnostic_period_sec=0.1), program)
+                for program, row in rows.items()}
+
+    def test_sigterm_and_sigint_end_all_nodes_with_0(self):
+        for end in (signal.SIGTERM, signal.SIGINT):
+            nodes = self.start_each()
+            for name, process in nodes.items():
+                Diagnostics(name).wait_for_summary('master', 'listed')
+                process.send_signal(end)
+            for name, process in nodes.items():
+                printed, _ = process.communicate(timeout=LIMIT)
+                self.assertEqual(process.returncode, 0, (name, end, printed))
+
+    def test_simulated_time_that_does_not_begin_is_told(self):
+        rospy.set_param('/use_sim_time', True)
+        self.addCleanup(rospy.delete_param, '/use_sim_time')
+        nodes = self.start_each()
+        for name in nodes:
+            Diagnostics(name).wait_for_summary('clock', '/clock', level=DiagnosticStatus.WARN)
+        time.sleep(5.0)  # The log says it after 3 s.
+        for process in nodes.values():
+            self.assertIn('no time has come on /clock', self.stop(process))
+
+    def test_poses_of_another_type_or_far_away_are_named(self):
+        """On a topic and on TF: the tip is 100 m away, as in millimetres."""
+        tools = [dict(TOOL, name='typed', tip_pose_topic='/typed/pose', tip_frame='typed_tip'),
+                 dict(TOOL, name='streamed', tip_pose_topic='/streamed/pose', tip_frame='streamed_tip'), TOOL]
+        nodes = self.start_each(tools=tools, rate=20.0)
+        typed = rospy.Publisher('/typed/pose', Pose, queue_size=1)
+        streamed = rospy.Publisher('/streamed/pose', PoseStamped, queue_size=1)
+        meshes = [rospy.Publisher(name + '/organ_mesh', OrganMesh, queue_size=1, latch=True) for name in nodes]
+        for mesh in meshes:
+            mesh.publish(mesh_message('sheet', SHEET, rospy.Time()))
+        tf = TfSender()
+        tf.send_resting(('liver_frame', 'grasper_trocar', (0.0, 0.0, 0.1)))
+        said = {name: Diagnostics(name) for name in nodes if 'guard' not in name}
+
+        def has_said(name, task, *words):
+            typed.publish(Pose())
+            streamed.publish(pose_stamped('liver_frame', (0.0, 0.0, 100.0), rospy.Time.now()))
+            tf.send(('liver_frame', 'grasper_tip', (0.0, 120.0, 0.0), rospy.Time.now()))
+            return any(all(word in summary for word in words) for summary in said[name].summaries.get(task, []))
+
+        for name in said:
+            for task, *words in (('messages', '/typed/pose', 'type geometry_msgs/Pose;', 'geometry_msgs/PoseStamped'),
+                                 ('tools', "tool 'streamed' is 1", "'sheet'", 'millimetres'),
+                                 ('tools', "tool 'grasper' is 1", "'sheet'", 'millimetres')):
+                wait_until(lambda: has_said(name, task, *words) or time.sleep(0.01),
+                           lambda: '%s: %s in %s' % (name, words, {t: s[-1] for t, s in said[name].summaries.items()}))
+        answers = Log(self.name + 'organ_collision_node/contacts', ContactArray)
+        wait_until(lambda: answers.last(lambda m: m.tool == 'typed' and 'type geometry_msgs/Pose;' in m.message),
+                   lambda: answers.messages[-1:])
 
     def without(self, libraries):
         """The words of a command that runs a node where these GL libraries are missing: files that are no libraries

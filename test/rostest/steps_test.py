@@ -5,13 +5,13 @@ Transforms that lag, and a clock that jumps. The sequences of messages are in te
 import sys
 
 from geometry_msgs.msg import PoseStamped
-from organ_collision.msg import ContactArray
+from organ_collision.msg import ContactArray, OrganMesh, ProxyState
 import rospy
 import rostest
 
 from support import scenes
 from support.contact_case import KeepsContract
-from support.node_client import NodeClient, is_heard, pose_stamped, wait_until
+from support.node_client import FAR_AWAY, Log, NodeClient, is_heard, mesh_message, pose_stamped, wait_until
 from support.tool_case import SimulatedCase
 from support.tool_over_sheet import RADIUS, SHEET, TROCAR, at_height, depth_at
 
@@ -136,6 +136,42 @@ class StepsTest(KeepsContract, SimulatedCase):
             self.assertLessEqual(len(answers) - before, 10 + 5)  # A few are from before.
             (hit,) = [answer for answer in answers if answer.contacts]
             self.assert_step(hit, SWEPT, RADIUS + 0.05)
+
+    def test_no_clock_and_no_stamp_ends_a_node(self):
+        """The clock goes to the ends of what ROS can count, and messages have stamps from there. Afterwards, all nodes
+        answer as before."""
+        nodes = self.node, self.connected('/ticking'), self.connected('/posed')
+        arm = rospy.Publisher('/PSM1/local/measured_cp', PoseStamped, queue_size=1000)
+        meshes = rospy.Publisher('/haptic_proxy/organ_mesh', OrganMesh, queue_size=100)
+        states = Log('/haptic_proxy/grasper/state', ProxyState)
+        wait_until(lambda: is_heard(arm, '/posed') and is_heard(meshes, '/haptic_proxy'), 'connections')
+
+        def have_time():
+            self.clock.publisher.publish(now)
+            return all(node.query('nobody', FAR_AWAY).header.stamp == now for node in nodes)
+
+        ends = (0, 1, 2**31 - 1, 2**31, 2**32 - 300, 2**32 - 1)
+        with self.clock.lock:
+            for seconds in ends + (10,) + ends[::-1] + (2**31 + 7, 10, 2**32 - 20, 10):
+                now = rospy.Time(seconds)
+                wait_until(have_time, 'the nodes at %d s' % seconds)
+                for stamp in map(rospy.Time, sorted({seconds, *ends})):
+                    self.place('grasper', (at_height(HIGH), stamp))
+                    arm.publish(pose_stamped('PSM1_base', (0, 0, 0.1), stamp))
+                    meshes.publish(mesh_message(self.organ, SHEET, stamp))
+                    for node in nodes:
+                        node.send_mesh(self.organ, SHEET, stamp)
+                        node.send_vertices(self.organ, SHEET, stamp)
+                wait_until(have_time, 'the nodes after messages at %d s' % seconds)
+        self.jump(6000)
+        begin = self.stamp
+        self.move(HIGH, vertices=False)
+        self.assert_step(self.move(LOW), SWEPT, depth_at(LOW))
+        nodes[1].bring(self.organ, SHEET, self.stamp)
+        nodes[1].contacts.wait_for(self.organ, 'grasper', mesh_stamp=self.stamp, status=ContactArray.OK)
+        meshes.publish(mesh_message(self.organ, SHEET, self.stamp))
+        wait_until(lambda: states.last() and begin <= states.last().header.stamp <= self.clock.now,
+                   'a state of the proxy')
 
     def test_each_pose_of_a_tip_is_answered_without_a_new_shape(self):
         node = self.connected('/posed')

@@ -1,5 +1,7 @@
 #include "parameter_group.hpp"
 
+#include <ros/master.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -67,6 +69,7 @@ std::string NumberRange::in_words() const {
   words << std::max(lowest, least_above_zero);
   if (is_bounded) words << (lowest_is_legal ? " to " : ", up to ") << highest;
   if (infinity_is_legal) words << ", or .inf";
+  words << instead;
   return words.str();
 }
 
@@ -83,9 +86,10 @@ bool ParameterGroup::flag(const std::string& name, bool fallback) const {
   return static_cast<const bool&>(require(name, XmlRpcValue::TypeBoolean, "must be true or false"));
 }
 
-std::string ParameterGroup::choice(const std::string& name, const std::string& fallback,
+std::string ParameterGroup::choice(const std::string& name,
+                                   const std::optional<std::string>& fallback,
                                    const std::vector<std::string>& legal_values) const {
-  if (!has(name)) return fallback;
+  if (fallback && !has(name)) return *fallback;
   const std::string legal = "must be one of " + listed(legal_values);
   const std::string& text = text_in(require(name, XmlRpcValue::TypeString, legal));
   const auto found = std::find(legal_values.begin(), legal_values.end(), text);
@@ -128,15 +132,14 @@ const XmlRpcValue& ParameterGroup::list(const std::string& name, const std::stri
   return require(name, XmlRpcValue::TypeArray, "must be a list of " + of_what);
 }
 
-std::vector<ParameterGroup> ParameterGroup::groups(const std::string& name,
-                                                   const std::string& of_what,
-                                                   const std::vector<std::string>& legal_names,
-                                                   std::vector<std::string>& misspelt) const {
+std::vector<ParameterGroup> ParameterGroup::groups(
+    const std::string& name, const std::string& of_what,
+    const std::vector<std::string>& legal_names) const {
   const XmlRpcValue& entries = list(name, of_what);
   std::vector<ParameterGroup> groups;
   for (int i = 0; i < entries.size(); ++i) {
     groups.emplace_back(path_of(name) + "[" + std::to_string(i) + "]", entries[i], legal_names);
-    for (const std::string& sentence : groups.back().misspelt()) misspelt.push_back(sentence);
+    for (const std::string& sentence : groups.back().misspelt()) throw ParameterError(sentence);
   }
   return groups;
 }
@@ -218,17 +221,19 @@ const XmlRpcValue& ParameterGroup::require(const std::string& name, Type type,
                        remedy(value, type));
 }
 
-std::map<std::string, KeptSide> parse_keep(const ParameterGroup& all,
-                                           std::vector<std::string>& misspelt) {
+std::string ParameterGroup::shown(const std::string& name) const {
+  return has(name) ? written(value_[name]) : "default";
+}
+
+std::map<std::string, KeptSide> parse_keep(const ParameterGroup& all) {
   const std::map<std::string, KeptSide> sides = {{"outside", KeptSide::kOutside},
                                                  {"inside", KeptSide::kInside},
                                                  {"either", KeptSide::kEither}};
   std::map<std::string, KeptSide> keep;
   if (!all.has("keep")) return keep;
   for (const ParameterGroup& entry :
-       all.groups("keep", "groups of organ and side", {"organ", "side"}, misspelt)) {
-    const std::string side =
-        entry.choice("side", entry.text("side"), {"outside", "inside", "either"});
+       all.groups("keep", "groups of organ and side", {"organ", "side"})) {
+    const std::string side = entry.choice("side", {}, {"outside", "inside", "either"});
     if (!keep.insert({entry.text("organ"), sides.at(side)}).second) {
       entry.refuse("organ", "must be unique among the organs of " + all.path_of("keep"));
     }
@@ -239,6 +244,9 @@ std::map<std::string, KeptSide> parse_keep(const ParameterGroup& all,
 XmlRpcValue all_parameters(const ros::NodeHandle& private_node) {
   XmlRpcValue all;
   if (!private_node.getParam(private_node.getNamespace(), all)) {
+    if (!ros::master::check()) {
+      throw ParameterError("the ROS master does not answer, so parameters cannot be read");
+    }
     all.begin();  // Makes it an empty group.
   }
   return all;

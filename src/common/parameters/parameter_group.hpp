@@ -28,6 +28,7 @@ struct NumberRange {
   bool lowest_is_legal = true;
   bool infinity_is_legal = false;
   double least_above_zero = 0.0;  ///< smaller numbers are refused, except 0
+  const char* instead = "";       ///< what may stand for the number, as words go on: ", or a list"
 
   /// In few words, for example "0, or 0.001 to 10000".
   std::string in_words() const;
@@ -56,7 +57,7 @@ class ParameterGroup {
   /// `fallback` if there is no such member. Each throws ParameterError if the value is illegal, or
   /// if there is neither a value nor a fallback.
   bool flag(const std::string& name, bool fallback) const;
-  std::string choice(const std::string& name, const std::string& fallback,
+  std::string choice(const std::string& name, const std::optional<std::string>& fallback,
                      const std::vector<std::string>& legal_values) const;
   double number(const std::string& name, std::optional<double> fallback, const NumberRange& range,
                 bool must_be_whole = false) const;
@@ -68,11 +69,10 @@ class ParameterGroup {
   std::string frame(const std::string& name) const;
   /// A list of anything. `of_what`: what the list holds, for the error message.
   const XmlRpc::XmlRpcValue& list(const std::string& name, const std::string& of_what) const;
-  /// The groups in the list `name`, with the members `legal_names`. `misspelt` gets a sentence for
-  /// each other member.
+  /// The groups in the list `name`. Throws ParameterError if one has another member than
+  /// `legal_names`: a misspelt one would leave its default in force.
   std::vector<ParameterGroup> groups(const std::string& name, const std::string& of_what,
-                                     const std::vector<std::string>& legal_names,
-                                     std::vector<std::string>& misspelt) const;
+                                     const std::vector<std::string>& legal_names) const;
   /// A point [m]: a list of three numbers, each at most 2 in magnitude.
   Eigen::Vector3d point(const std::string& name) const;
   /// A non-empty list of different, non-empty texts.
@@ -90,6 +90,8 @@ class ParameterGroup {
   /// the misspelt members, because the user may have meant one of them.
   [[noreturn]] void refuse_missing(const std::string& name, const std::string& legal) const;
   std::string path_of(const std::string& name) const;
+  /// The member as a user writes it, or "default" if there is none.
+  std::string shown(const std::string& name) const;
 
  private:
   using Type = XmlRpc::XmlRpcValue::Type;
@@ -107,12 +109,12 @@ class ParameterGroup {
 /// The side of an organ's surface on which tools may be.
 enum class KeptSide { kOutside, kInside, kEither };
 
-/// Reads the parameter `keep`: a side for each organ that it lists. No list: empty. `misspelt` gets
-/// a sentence for each unknown name. Throws ParameterError.
-std::map<std::string, KeptSide> parse_keep(const ParameterGroup& all,
-                                           std::vector<std::string>& misspelt);
+/// Reads the parameter `keep`: a side for each organ that it lists. No list: empty. Throws
+/// ParameterError.
+std::map<std::string, KeptSide> parse_keep(const ParameterGroup& all);
 
-/// All members of a node's private namespace, as a group; an empty group if there are none.
+/// All members of a node's private namespace, as a group; an empty group if there are none. Throws
+/// ParameterError if the ROS master does not answer.
 XmlRpc::XmlRpcValue all_parameters(const ros::NodeHandle& private_node);
 
 }  // namespace organ_collision

@@ -3,6 +3,7 @@
 #include <dynamic_reconfigure/ConfigDescription.h>
 #include <dynamic_reconfigure/config_tools.h>
 #include <ros/console.h>
+#include <ros/master.h>
 
 #include <algorithm>
 #include <cmath>
@@ -95,7 +96,7 @@ void Row::read(const ParameterGroup& all) const {
   const bool has_list = list && all.has_list(name), has_value = is_flag() || is_number();
   const double read =
       has_value && !has_list ? value_in(all) : 0.0;  // May throw, before any change.
-  if (list) list(all);
+  if (list) list(all)();
   if (has_list) return;
   has_value ? set_value(read) : std::get<Read>(member)(all);
 }
@@ -146,18 +147,24 @@ void ParameterTable::change(const XmlRpcValue& changes) const {
   std::vector<double> values;
   for (const Row& row : live) values.push_back(row.value_in(group));
   for (std::size_t i = 0; i < live.size(); ++i) {
-    if (live[i].list && values[i] != live[i].value()) live[i].list(group);
+    if (live[i].list && values[i] != live[i].value()) live[i].list(group)();
     live[i].set_value(values[i]);
   }
 }
 
-bool ParameterTable::read_lists(const XmlRpcValue& private_namespace) const {
-  bool has_any = false;
+std::vector<std::string> ParameterTable::read_lists(const XmlRpcValue& private_namespace) const {
+  const ParameterGroup all = group(private_namespace);
+  std::vector<std::string> read;
   for (const Row& row : rows_) {
-    if (row.list) row.read(group(private_namespace));
-    has_any = has_any || row.list;
+    if (!row.list) continue;
+    if (row.is_number() && !all.has_list(row.name)) row.value_in(all);  // Before any change.
+    row.list(all);
+    read.push_back(row.name + " is " + all.shown(row.name));
   }
-  return has_any;
+  for (const Row& row : rows_) {
+    if (row.list) row.read(all);
+  }
+  return read;
 }
 
 std::vector<Row> ParameterTable::live_rows() const {
@@ -178,11 +185,13 @@ void LiveParameters::advertise() {
       "parameter_descriptions", 1, true);
   updates_ = private_node_.advertise<Config>("parameter_updates", 1, true);
   descriptions_.publish(description(parameters_));
-  updates_.publish(present(parameters_));
+  publish();
   server_ = advertise_checked<Service>(
       private_node_, help().name,
       [this](auto& request, auto& response) { return on_set(request, response); });
 }
+
+void LiveParameters::publish() { updates_.publish(present(parameters_)); }
 
 /// Serves changes. A changed value also goes to the parameter server. If a value is illegal,
 /// nothing changes, and the log says what is legal.
@@ -197,6 +206,11 @@ bool LiveParameters::on_set(Service::Request& request, Service::Response& respon
   for (std::size_t i = 0; i < parameters_.size(); ++i) {
     const Row& now = parameters_[i];
     if (now.value() == before[i]) continue;
+    if (!ros::master::check()) {  // roscpp would wait until there is a master.
+      ROS_WARN("~%s is %g now, but the parameter server does not answer, and has the old value",
+               now.name.c_str(), now.value());
+      continue;
+    }
     if (now.is_flag()) {
       private_node_.setParam(now.name, now.value() != 0.0);
     } else {

@@ -31,15 +31,16 @@ class ParameterTable {
  public:
   struct Row : HelpEntry {
     using Read = std::function<void(const ParameterGroup&)>;
+    /// Reads a list, and returns what takes it over. If there is none, that forgets the last list.
+    using ReadList = std::function<std::function<void()>(const ParameterGroup&)>;
 
     /// The number or flag of PARAMETERS that has the value. Or what reads another kind of parameter
     /// from the group of all.
     std::variant<double*, int*, bool*, Read> member;
-    double fallback = 0.0;   ///< the default of a number; of a flag, 0 or 1
-    NumberRange range = {};  ///< the legal values of a number
-    bool is_live = false;    ///< it can be changed while the node runs
-    /// Reads a list that may stand for the number. If there is none, it forgets the last list.
-    Read list = nullptr;
+    double fallback = 0.0;    ///< the default of a number; of a flag, 0 or 1
+    NumberRange range = {};   ///< the legal values of a number
+    bool is_live = false;     ///< it can be changed while the node runs
+    ReadList list = nullptr;  ///< of a list that read_lists() reads again
 
     bool is_flag() const { return std::holds_alternative<bool*>(member); }
     bool is_whole() const { return std::holds_alternative<int*>(member); }
@@ -57,7 +58,8 @@ class ParameterTable {
       is_live = true;
       return *this;
     }
-    void or_list(const Read& its_list) { list = its_list; }
+    /// A list may stand for the number. The range says so in words.
+    void or_list(const ReadList& its_list) { list = its_list; }
     HelpEntry help() const;
   };
 
@@ -89,6 +91,13 @@ class ParameterTable {
   /// group of all parameters. `fallback`: what --help shows as its default.
   Row& other(const std::string& name, const std::string& fallback, const Row::Read& read,
              const std::string& text);
+  /// Adds a list that read_lists() reads again.
+  void list(const std::string& name, const std::string& fallback, const Row::ReadList& read,
+            const std::string& text) {
+    other(
+        name, fallback, [](const ParameterGroup&) {}, text)
+        .list = read;
+  }
 
   /// The node's parameters as a group. Names that have no row count as misspelt. Throws
   /// ParameterError if `private_namespace` is no group.
@@ -100,9 +109,10 @@ class ParameterTable {
   /// illegal, or if a parameter cannot be changed then.
   void change(const XmlRpc::XmlRpcValue& changes) const;
 
-  /// Reads those parameters again that may be lists, which change() cannot take. Returns whether
-  /// there are any. Throws ParameterError, and then changes nothing of a parameter.
-  bool read_lists(const XmlRpc::XmlRpcValue& private_namespace) const;
+  /// Reads those parameters again that may be lists, which change() cannot take. Returns what was
+  /// read, for example "keep is default"; empty if there are none. Throws ParameterError, and then
+  /// changes nothing.
+  std::vector<std::string> read_lists(const XmlRpc::XmlRpcValue& private_namespace) const;
 
   const std::vector<Row>& rows() const { return rows_; }
   /// The rows that can be changed while the node runs.
@@ -155,6 +165,8 @@ class LiveParameters {
 
   /// Publishes the parameters, and serves changes. From now on, `apply` may be called at any time.
   void advertise();
+  /// Tells the clients the present values, which changed without their doing.
+  void publish();
   /// What --help says of the service.
   static HelpEntry help();
 

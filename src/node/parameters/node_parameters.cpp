@@ -12,6 +12,8 @@ namespace organ_collision {
 namespace {
 
 const std::string kShaftKeys = "trocar_frame, tip_frame and radius";
+/// [m] A larger one was not given in metres.
+constexpr NumberRange kRadii{0.0, 1.0, false};
 
 /// The name of a topic that a tool's parameter gives; empty if the parameter is not set.
 std::string topic(const ParameterGroup& tool, const char* name) {
@@ -63,7 +65,7 @@ void parse_tip(const ParameterGroup& tool, const std::string& unnamed, ToolParam
 
 void parse_shaft(const ParameterGroup& tool, ToolParameters& parsed) {
   parsed.trocar_frame = tool.frame(names::kTrocarFrame);
-  parsed.radius = tool.number(names::kRadius, {}, kPositive);
+  parsed.radius = tool.number(names::kRadius, {}, kRadii);
   parse_tip(tool, parsed.name + "_tip", parsed);
   parsed.trocar_offset = offset(tool, names::kTrocarOffset);
 }
@@ -73,7 +75,10 @@ bool is_among(const std::vector<std::string>& names, const std::string& name) {
 }
 
 void parse_jaws(const ParameterGroup& tool, ToolParameters& parsed) {
-  if (!tool.has(names::kFirstJaw) && !tool.has(names::kSecondJaw)) return;
+  if (!tool.has(names::kFirstJaw) && !tool.has(names::kSecondJaw)) {
+    return refuse_any(tool, {names::kGraspGap}, "goes with first_jaw, which is missing");
+  }
+  parsed.grasp_gap = tool.number(names::kGraspGap, parsed.grasp_gap, {0.0, 0.1});
   const std::array<const char*, 2> keys = {names::kFirstJaw, names::kSecondJaw};
   for (std::size_t jaw = 0; jaw < keys.size(); ++jaw) {
     parsed.jaws[jaw] = tool.texts(keys[jaw]);
@@ -147,7 +152,7 @@ ToolParameters parse_tool(const ParameterGroup& tool) {
   } else {
     refuse_any(tool,
                {names::kRobotDescription, names::kUrdf, names::kTfPrefix, names::kFirstJaw,
-                names::kSecondJaw},
+                names::kSecondJaw, names::kGraspGap},
                "goes with links, which are missing");
   }
   if (has_shaft) {
@@ -196,7 +201,7 @@ const std::vector<HelpEntry>& tool_keys() {
        "offset, the tool is a ball"},
       {names::kTipOffset, "shaft, links; [0, 0, 0]",
        "[m] where the tip is in tip_frame, for example from the pivot calibration of a marker"},
-      {names::kRadius, "shaft; required", "[m] the radius of the shaft"},
+      {names::kRadius, "shaft; required", "[m] the radius of the shaft, " + kRadii.in_words()},
       {names::kTipPoseTopic, "shaft, links; none",
        "the topic of the poses of tip_frame (geometry_msgs/PoseStamped), instead of TF"},
       {names::kBasePoseTopic, "with tip_pose_topic; none",
@@ -205,6 +210,9 @@ const std::vector<HelpEntry>& tool_keys() {
       {names::kFirstJaw, "links; none",
        "those of the links that are one of two jaws: the topic grasps tells what the jaws grasp"},
       {names::kSecondJaw, "with first_jaw; none", "those of the links that are the other jaw"},
+      {names::kGraspGap, "with first_jaw; 0.002",
+       "[m] jaws that have closed to it from more than twice as much, while both touch, grasp what "
+       "they touch, even tissue that does not give way. 0: they grasp only tissue between them"},
       {names::kRobotDescription, "links; robot_description",
        "the parameter that has the URDF, in the node's namespace or above it"},
       {names::kUrdf, "links; none", "instead of robot_description: the URDF's file, or its URL"},
@@ -221,14 +229,13 @@ const std::vector<HelpEntry>& tool_keys() {
   return keys;
 }
 
-std::vector<ToolParameters> parse_tools(const ParameterGroup& all,
-                                        std::vector<std::string>& misspelt) {
+std::vector<ToolParameters> parse_tools(const ParameterGroup& all) {
   std::vector<ToolParameters> tools;
   std::vector<std::string> legal_keys;
   for (const HelpEntry& key : tool_keys()) legal_keys.push_back(key.name);
   for (const ParameterGroup& group :
        all.groups(names::kTools, "groups of name and links, or name, " + kShaftKeys + " [m]",
-                  legal_keys, misspelt)) {
+                  legal_keys)) {
     const ToolParameters tool = parse_tool(group);
     for (const ToolParameters& other : tools) {
       if (other.name == tool.name) group.refuse(names::kToolName, "must be unique among the tools");
@@ -241,8 +248,7 @@ std::vector<ToolParameters> parse_tools(const ParameterGroup& all,
 ParameterTable table_of(NodeParameters& p) {
   ParameterTable t;
   t.other(
-      names::kTools, "required",
-      [&p](const ParameterGroup& all) { p.tools = parse_tools(all, p.misspelt); },
+      names::kTools, "required", [&p](const ParameterGroup& all) { p.tools = parse_tools(all); },
       "list of tools, with the keys below. []: the node publishes no contacts, and answers queries "
       "that give a motion");
   t.number("rate", p.rate_hz, kRates,
@@ -253,8 +259,8 @@ ParameterTable table_of(NodeParameters& p) {
          "true: during a step, an organ moves from its previous shape to the new one. false: it "
          "rests in the new shape");
   t.number("motion_sample_sec", p.motion_sample_sec, kPositive,
-           "[s] the path of a tool goes through every pose in TF. Where these are farther apart "
-           "than this, TF's interpolation is sampled at this interval");
+           "[s] the path of a tool goes through every pose in TF, and moves as TF interpolates in "
+           "between. Where a frame gets another parent in between, it is sampled at this interval");
   t.number(
       "motion_samples_max", p.motion_samples_max, {1, 100'000},
       "largest number of legs of a tool's path in a step; a leg goes from one pose to the next. "
@@ -269,6 +275,9 @@ ParameterTable table_of(NodeParameters& p) {
        "mesh_timeout_sec", p.mesh_timeout_sec, {0.0, 1e6},
        "[s] if the last shape of the organ came longer ago than this, the answer is STALE_MESH. 0: "
        "never")
+      .live();
+  t.number("grasp_hold_sec", p.grasp_hold_sec, {0.0, 10.0},
+           "[s] tissue is let go if the jaws hold nothing for so long; at once if they open")
       .live();
   t.number("max_batch", p.max_batch, {1, 1'000'000},
            "largest number of motions in one query_batch; larger batches are refused");

@@ -22,6 +22,7 @@ struct ToolParameters {
   std::string base_pose_topic = {};     ///< topic of the poses of the tip poses' frame; or empty
   std::vector<std::string> links = {};  ///< links of the robot's URDF, each once; empty: no links
   std::array<std::vector<std::string>, 2> jaws = {};  ///< links of each jaw; empty: no grasping
+  double grasp_gap = 0.002;  ///< [m] jaws that have closed to it grasp what they touch; 0: never
   std::string robot_description = {};  ///< parameter that has the URDF, if `urdf` is empty
   std::string urdf = {};               ///< file or URL of the URDF, or empty
   std::string tf_prefix = {};          ///< TF frames of links are PREFIX/LINK; empty: LINK
@@ -47,10 +48,8 @@ struct ToolParameters {
 /// default.
 const std::vector<HelpEntry>& tool_keys();
 
-/// Reads the list `tools` of a node. `all`: all parameters of the node. `misspelt` gets a sentence
-/// for each unknown key of a tool. Throws ParameterError.
-std::vector<ToolParameters> parse_tools(const ParameterGroup& all,
-                                        std::vector<std::string>& misspelt);
+/// Reads the list `tools` of a node. `all`: all parameters of the node. Throws ParameterError.
+std::vector<ToolParameters> parse_tools(const ParameterGroup& all);
 
 /// How markers are published and drawn.
 struct MarkerSettings {
@@ -79,6 +78,7 @@ struct NodeParameters : OrganNodeParameters {
   double motion_sample_sec = 0.001;
   int motion_samples_max = 100;
   double tf_timeout_sec = 0.02;
+  double grasp_hold_sec = 0.05;     ///< how long no pair opposes before tissue is let go
   int max_batch = 100'000;          ///< most motions in one call of query_batch
   int max_batch_bytes = 256 << 20;  ///< [bytes] most for all results of a batch, serialized
   bool publish_regions = false;

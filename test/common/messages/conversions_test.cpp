@@ -52,6 +52,20 @@ Eigen::AlignedBox3d box(double x, double y, double z) {
   return {low, low + Eigen::Vector3d(x, y, z)};
 }
 
+TEST(Clock, ItsEndsAreNoErrors) {
+  const ros::Time last(4294967295, 999999999);
+  EXPECT_EQ(later(ros::Time(10.0), 0.5), ros::Time(10.5));
+  EXPECT_EQ(later(ros::Time(2147483647.0), 1.0), ros::Time(2147483648.0));
+  for (const ros::Time time : {ros::Time(), ros::Time(4294967295.0), last}) {
+    EXPECT_EQ(later(time, 1e12), last);
+  }
+  for (const ros::Time now : {ros::Time(), ros::Time(4294966999.5), last}) {
+    EXPECT_NE(ahead_fault(ros::Time(4294967001.0), now, 1e9).find("at most 4294967000"),
+              std::string::npos);
+    EXPECT_EQ(ahead_fault(ros::Time(4294966999.9), now, 1.0), "");
+  }
+}
+
 TEST(PlausibleSize, OrgansByTheirLongestSideAndShaftsByTheirRadius) {
   const std::string lengths = " m. Lengths are in metres: ", large = "are these millimetres?",
                     small = "were they converted from millimetres twice?";
@@ -71,6 +85,11 @@ TEST(PlausibleSize, OrgansByTheirLongestSideAndShaftsByTheirRadius) {
             "tool 'hook' has a radius of 5 m" + of_radii + large);
   EXPECT_EQ(doubt_about_radius("tool 'hook'", 5e-6),
             "tool 'hook' has a radius of 5e-06 m" + of_radii + small);
+  EXPECT_EQ(doubt_about_distance("hook", "liver", 0.0), "");
+  EXPECT_EQ(doubt_about_distance("hook", "liver", 9.0), "");
+  EXPECT_EQ(doubt_about_distance("hook", "liver", 100.0),
+            "tool 'hook' is 100 m away from organ 'liver'; plausible are 0 to 10 m. Lengths are in "
+            "metres: are these millimetres?");
   EXPECT_EQ(doubt_about_link("hook", "jaw", 0.02), "");
   EXPECT_EQ(doubt_about_link("hook", "jaw", 20.0),
             "link 'jaw' of tool 'hook' is 20 m long; plausible are 0.0002 to 3" + lengths + large);

@@ -99,20 +99,19 @@ TEST(NodeParameters, ToolsMustBeGivenAndHaveNamesOfTheirOwn) {
   EXPECT_TRUE(parse_parameters<NodeParameters>(none).tools.empty());
 }
 
-TEST(NodeParameters, MisspeltKeysOfToolsAreReported) {
+// Of a node they are reported. In a tool, one that has no effect might leave a default in force.
+TEST(NodeParameters, MisspeltKeysOfToolsAreRefused) {
   XmlRpcValue all = legal_parameters<NodeParameters>();
   all["rates"] = 1;
-  all["tools"][0]["raduis"] = 1;
   const std::vector<std::string> misspelt = parse_parameters<NodeParameters>(all).misspelt;
-  ASSERT_EQ(misspelt.size(), 2u);
+  ASSERT_EQ(misspelt.size(), 1u);
   expect_words(misspelt[0], {"~rates", "'rate'"});
-  expect_words(misspelt[1], {"~tools[0]/raduis", "'radius'"});
-  XmlRpcValue tool = shaft(), wrong;
-  for (const auto& [name, value] : tool) wrong[name == "radius" ? "raduis" : name] = value;
-  expect_words(tool_refusal(wrong),
-               {"~tools[0]/radius is missing; must be a number, above 0 "
-                "(~tools[0]/raduis is no parameter; nearest is 'radius', legal "
-                "are name, trocar_frame"});
+  for (const HelpEntry& key : tool_keys()) {
+    XmlRpcValue tool = shaft();
+    tool[key.name + "s"] = 1;
+    expect_words(tool_refusal(tool), {"~tools[0]/" + key.name + "s is no parameter; nearest is '" +
+                                      key.name + "', legal are name, trocar_frame"});
+  }
 }
 
 /// A key of a legal tool with an illegal value, and what the refusal says besides the key.
@@ -126,8 +125,9 @@ struct ToolRefusal {
 TEST(ToolParameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
   const XmlRpcValue too_long = std::string(257, 'x');
   const std::vector<ToolRefusal> refusals = {
-      {shaft, "radius", 0.0, {"'0'", "above 0"}},
-      {shaft, "radius", kUnlimited, {"inf", "above 0"}},
+      {shaft, "radius", 0.0, {"'0'", "above 0, up to 1"}},
+      {shaft, "radius", 2.5, {"'2.5'", "above 0, up to 1"}},
+      {shaft, "radius", kUnlimited, {"inf", "above 0, up to 1"}},
       {shaft, "name", "", {"not empty"}},
       {shaft, "name", 7, {"the number '7'; must be a text that is not empty: write it in quotes"}},
       {shaft, "name", true, {"true; must be a text that is not empty: write it in quotes"}},
@@ -176,6 +176,8 @@ TEST(ToolParameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
        {"~tools[0]/first_jaw is '{jaws}'", "'jaws' is no link",
         "nearest is 'jaw', legal are jaw, other_jaw"}},
       {shaft, "second_jaw", list_of({"jaw"}), {"goes with links"}},
+      {shaft, "grasp_gap", 0.004, {"goes with links"}},
+      {links, "grasp_gap", 0.004, {"~tools[0]/grasp_gap", "goes with first_jaw"}},
       {links, "robot_description", "a b", {"'a b'"}},
       {links, "urdf", "", {"not empty"}},
       {links, "tf_prefix", "left/", {"'left/'", "slash"}},
@@ -270,11 +272,16 @@ TEST(ToolParameters, AreAShaftOrLinksOrBoth) {
   tool["links"] = links()["links"];
   tool["first_jaw"] = list_of({"other_jaw"});
   tool["second_jaw"] = list_of({"jaw"});
+  EXPECT_EQ(parsed(tool).grasp_gap, 0.002);
+  tool["grasp_gap"] = 4;
+  expect_words(tool_refusal(tool), {"~tools[0]/grasp_gap is '4'", "0.1"});
+  tool["grasp_gap"] = 0.004;
   tool["urdf"] = "package://hooks/hook.urdf";
   const ToolParameters both = parsed(tool);
   EXPECT_TRUE(both.has_shaft());
   EXPECT_EQ(both.links.size(), 2u);
   EXPECT_EQ(both.jaws, (std::array<std::vector<std::string>, 2>{{{"other_jaw"}, {"jaw"}}}));
+  EXPECT_EQ(both.grasp_gap, 0.004);
   EXPECT_EQ(both.urdf, "package://hooks/hook.urdf");
   EXPECT_EQ(both.robot_description, "");
 }

@@ -24,7 +24,6 @@ PACKAGE = roslib.packages.get_pkg_dir('organ_collision')
 # rospy's signal handler calls the ROS master, and waits forever if it interrupted such a call.
 FIRST_MESSAGES = {
     '/simulator': ('/organ_collision/organ_vertices', OrganVertices),
-    '/sheet': ('/sheet_collision/organ_vertices', OrganVertices),
     '/dvrk_robot': ('/PSM2/jaw/measured_js', JointState),
     '/dvrk_organ': ('/organ_collision/organ_vertices', OrganVertices),
     '/MTML/force': ('/MTML/body/servo_cf', WrenchStamped),
