@@ -15,6 +15,7 @@ _MODULES = {
     'near_table': 'answers',
     'MeshFileError': 'mesh_files',
     'read_mesh': 'mesh_files',
+    'write_ply': 'mesh_files',
     'link_motions': 'messages',
     'organ_mesh': 'messages',
     'organ_vertices': 'messages',

@@ -10,7 +10,7 @@ from organ_collision.arrays import face_array, points_array, poses_array, vertex
 from organ_collision.msg import LinkMotion, OrganMesh, OrganVertices, ToolMotion
 
 # Subclasses of the messages, which write numpy arrays. Any publisher of the messages publishes them.
-_ArrayMesh, _ArrayVertices = numpy_msg(OrganMesh), numpy_msg(OrganVertices)
+ArrayMesh, ArrayVertices = numpy_msg(OrganMesh), numpy_msg(OrganVertices)
 
 
 def organ_mesh(organ, vertices, faces, frame=None, topology=0, stamp=None):
@@ -27,12 +27,12 @@ def organ_mesh(organ, vertices, faces, frame=None, topology=0, stamp=None):
     """
     vertices = vertex_array(vertices)
     faces = face_array(faces, len(vertices))
-    return _ArrayMesh(_header(organ, frame, stamp), organ, _revision(topology), vertices.ravel(), faces.ravel())
+    return ArrayMesh(_header(organ, frame, stamp), organ, _revision(topology), vertices.ravel(), faces.ravel())
 
 
 def organ_vertices(organ, vertices, frame=None, topology=0, stamp=None):
     """An OrganVertices: new positions of all vertices of an OrganMesh, in the same order. See organ_mesh."""
-    return _ArrayVertices(_header(organ, frame, stamp), organ, _revision(topology), vertex_array(vertices).ravel())
+    return ArrayVertices(_header(organ, frame, stamp), organ, _revision(topology), vertex_array(vertices).ravel())
 
 
 def shaft_motion(trocar, tip, radius, previous_trocar=None, previous_tip=None):

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <map>
+#include <stdexcept>
 
 #include "common/messages/conversions.hpp"
 #include "common/program/program.hpp"
@@ -252,8 +253,14 @@ int main(int argc, char** argv) {
     simulator.publish_mesh(ros::Time::now());
     ros::spin();
   }
-  for (ros::Rate loop(kHandPoses * rate); ros::ok(); loop.sleep()) {
+  for (ros::Rate loop(kHandPoses * rate); ros::ok();) {
     ros::spinOnce();
     simulator.step();
+    try {
+      loop.sleep();
+    } catch (const std::runtime_error&) {  // Simulated time has gone on by more than 2^31 s.
+      ros::WallDuration(1.0 / (kHandPoses * rate)).sleep();
+      loop.reset();
+    }
   }
 }

@@ -49,13 +49,14 @@ void check_axis(const ShaftAxis& axis, const Parts&... of) {
   check_point(axis.tip, "tip of ", of...);
 }
 
-void check_arcs(const ShaftArcs& arcs, std::size_t index) {
-  for (const ShaftArc& arc : arcs) {
-    check_point(arc.arm, "the arm of an arc to waypoint ", index);
-    const double angle = arc.turn.norm();
-    require(angle <= M_PI + kRotationTolerance, "an arc to waypoint ", index, " turns by ", angle,
-            " rad; must be finite and at most half a turn");
+void check_joints(const ToolWaypoint& waypoint, std::size_t index) {
+  for (const ShaftArc& arc : waypoint.arcs) {
+    require(std::isfinite(arc.deviation()), "an arc to waypoint ", index,
+            " is not finite; its joints must be");
   }
+  const std::size_t count = waypoint.joints.size();
+  require(count == 0 || count == waypoint.links.size(), "waypoint ", index, " has joints of ",
+          count, " links, and poses of ", waypoint.links.size());
 }
 
 void check_path(const CollisionRequest& request) {
@@ -64,8 +65,8 @@ void check_path(const CollisionRequest& request) {
   for (std::size_t i = 0; i < path.size(); ++i) {
     if (request.radius > 0.0) {
       check_axis(path[i].axis, "waypoint ", i);
-      check_arcs(path[i].arcs, i);
     }
+    check_joints(path[i], i);
     if (request.links) check_links(*request.links, path[i].links, "waypoint ", i);
     require(path[i].links.size() == path[0].links.size(), "waypoint ", i, " has poses of ",
             path[i].links.size(), " links, and the first one of ", path[0].links.size());
@@ -210,6 +211,8 @@ void check_organs(const ProxyTool& tool, const std::vector<ProxyOrgan>& organs) 
     }
     require(organ.most_advance >= 0.0 && std::isfinite(organ.most_advance), "organ '", organ.name,
             "' has advanced by ", organ.most_advance, " m at most; it must be >= 0 and finite");
+    require(organ.most_approach >= 0.0 && std::isfinite(organ.most_approach), "organ '", organ.name,
+            "' approaches at ", organ.most_approach, " m/s at most; it must be >= 0 and finite");
     const auto same_name =
         std::count_if(organs.begin(), organs.end(),
                       [&](const ProxyOrgan& other) { return other.name == organ.name; });

@@ -73,9 +73,10 @@ def sources():
 
 def reasons():
     """The texts under which refusals and failures are counted."""
-    texts = set()
+    adapter = read('python/organ_collision/surfaces.py') + read('scripts/organ_mesh_adapter')
+    texts = set(re.findall(r"MessageError\((?:'.*' if .* else )?'([^']+)'", adapter))
     for code in sources():
-        for pattern in (r'\bRejection\(\s*[\w:.]+,\s*', r'\bMessageError\(\s*',
+        for pattern in (r'\bRejection\(\s*[\w:.]+,\s*',
                         r'\b(?:rejected_?|refused_?|failures_?|failed_?|clipped_?)\.add\(\s*'):
             texts.update(re.findall(pattern + '"([^"]+)"', code))
         if 'return "no triangles";' in code or 'return "no mesh";' in code:  # The reasons of meshes and of statuses.

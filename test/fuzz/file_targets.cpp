@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "adapters/mesh_adapter_parameters.hpp"
 #include "common/messages/robot_reply.hpp"
 #include "common/program/user_input.hpp"
 #include "fuzz_input.hpp"
@@ -75,8 +74,7 @@ const FuzzTarget feedback_target("feedback", [](const std::uint8_t* data, std::s
 const FuzzTarget motion_file_target("motion_file", [](const std::uint8_t* data, std::size_t size) {
   const std::string path = memory_file(FuzzInput(data, size).rest());
   try {
-    Motions(path, Motions::Order::kAsInFile);
-    Motions motions(path, Motions::Order::kByQuery);
+    Motions motions(path);
     demand(motions.count() > 0, "a legal file has a motion");
     for (int i = 0; i < kMostMotions; ++i) {
       const std::optional<Motion> motion = motions.next();
@@ -136,7 +134,6 @@ void load_all(const YamlParameters& file) {
     for (const ToolParameters& tool : parameters.tools) proxy_settings(parameters, tool);
     table_of(parameters).change(all);
   });
-  load([&] { parse_parameters<MeshAdapterParameters>(all); });
 }
 
 const FuzzTarget parameters_target("parameters", [](const std::uint8_t* data, std::size_t size) {

@@ -15,15 +15,10 @@ import sys
 
 import genpy
 from geometry_msgs.msg import Point, Pose, PoseStamped, Quaternion, TransformStamped, Vector3
-from organ_collision.msg import (LinkMotion, OrganMesh, OrganVertices, RobotLink, RobotRecord, RobotShape,
-                                 ToolMotion)
+from organ_collision.msg import LinkMotion, OrganMesh, OrganVertices, ToolMotion
 from organ_collision.srv import QueryCollisionBatchRequest, QueryCollisionRequest
-from pcl_msgs.msg import PolygonMesh, Vertices
-from sensor_msgs.msg import PointCloud2, PointField
-from shape_msgs.msg import Mesh, MeshTriangle
 from std_msgs.msg import Header
 from tf2_msgs.msg import TFMessage
-from visualization_msgs.msg import Marker
 
 FOLDER = pathlib.Path(__file__).resolve().parent / 'corpus'
 
@@ -142,42 +137,7 @@ def haptic_proxy():
             'no_organ': b'\0' + trocar + hand(0.1, 1)}
 
 
-def mesh_adapter():
-    points = [Point(*SHEET[i:i + 3]) for i in range(0, 12, 3)]
-    shape = Mesh([MeshTriangle(SHEET_FACES[i:i + 3]) for i in (0, 3)], points)
-    fields = [PointField(name, 4 * i, PointField.FLOAT32, 1) for i, name in enumerate('xyz')]
-    cloud = PointCloud2(header(), 1, 4, fields, False, 12, 48, struct.pack('<12f', *SHEET), True)
-    polygons = PolygonMesh(header(), cloud, [Vertices([0, 1, 2, 3])])
-    marker = Marker(header=header(), ns='organ', id=3, type=Marker.TRIANGLE_LIST, points=points[:3] + points[1:])
-    marker.scale = Vector3(1, 1, 1)
-    deletion = Marker(header=header(), ns='organ', id=3, action=Marker.DELETE)
-    doubles = [PointField(name, 8 * i + 4, PointField.FLOAT64, 1) for i, name in enumerate('zyx')]
-    big = PointCloud2(header(), 2, 2, doubles, True, 32, 64, bytes(128), True)
-    return {'shape': b'\1' + record(0, shape) * 2,
-            'polygons': b'\0' + record(1, polygons) + record(3, cloud),
-            'marker': b'\0' + record(2, marker) + record(2, deletion),
-            'doubles': b'\0' + record(1, polygons) + record(3, big),
-            'no_frame': b'\0' + record(0, shape),
-            'too_large': b'\1' + record(0, shape) + record(0, Mesh(shape.triangles, [Point(1e39, 0, 0)] * 4)),
-            'huge_width': b'\0' + record(1, polygons) + record(3, PointCloud2(
-                header(), 0xffffffff, 0xffffffff, fields, False, 12, 48, bytes(48), True))}
-
-
-def robot_reply():
-    pose = [0.1, 0.2, 0.3, 0, 0, 0, 1]
-    shape = lambda kind, *size: RobotShape(kind=kind, pose=pose, size=list(size) + [0] * (3 - len(size)))
-    shapes = [shape(RobotShape.SPHERE, 0.01), shape(RobotShape.CYLINDER, 0.01, 0.3),
-              shape(RobotShape.BOX, 0.01, 0.02, 0.03),
-              RobotShape(kind=RobotShape.MESH, file='abcd', vertices=SOLID, triangles=SOLID_FACES)]
-    wire_of = lambda **fields: wire(RobotRecord(**fields))[2:]
-    links = wire_of(kind=RobotRecord.LINKS, links=[RobotLink('jaw_joint', shapes)])
-    return {'links': wire_of(kind=RobotRecord.READING, text="mesh 'a'") + links,
-            'refusal': wire_of(kind=RobotRecord.REFUSAL, text='no legal URDF'), 'cut_off': links[:-9],
-            'huge_text': struct.pack('<BI', 0, 2**31), 'nothing': b'\0',
-            'huge_count': struct.pack('<BII', 2, 0, 2**31)}
-
-
-CORPORA = [haptic_proxy, mesh_adapter, node_messages, query_requests, robot_reply]
+CORPORA = [haptic_proxy, node_messages, query_requests]
 
 
 def files():

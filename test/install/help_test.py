@@ -14,11 +14,11 @@ import unittest
 SOURCE, DEVEL = sys.argv[1:3]
 # Modules that programs import are not executable.
 SCRIPTS = [path for path in glob.glob(os.path.join(SOURCE, 'examples', '*.py')) if os.access(path, os.X_OK)] + [
-    os.path.join(SOURCE, 'scripts', name) for name in ('view.py', 'demo_report.py', 'plot.py', 'pose_adapter.py', 'trial_report.py')]
+    os.path.join(SOURCE, 'scripts', name) for name in ('view.py', 'demo_report.py', 'organ_mesh_adapter', 'plot.py', 'pose_adapter.py', 'trial_report.py')]
 # The programs of tests and benchmarks, besides the unit tests.
 NOT_SHIPPED = ('exactness_proof', 'proxy_proof', 'collision_benchmark', 'end_to_end', 'pose_to_wrench',
                'echo_node', 'ask_batches', 'motions_benchmark', 'soak', 'fuzz')
-NODES = ('organ_collision_node', 'haptic_proxy', 'organ_mesh_adapter', 'tool_guard')
+NODES = ('organ_collision_node', 'haptic_proxy', 'tool_guard')
 
 
 def program(name):

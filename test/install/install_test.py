@@ -20,10 +20,10 @@ SOURCE = os.path.dirname(os.path.dirname(HERE))
 PYTHON_OF_ROS = glob.glob('/opt/ros/*/lib/python3*/*-packages')  # Debian has it in the system's folders.
 PLAIN_ENVIRONMENT = {'PATH': '/usr/bin:/bin', 'HOME': os.environ.get('HOME', '/')}
 # The programs in Python: the examples that can be executed, and what the launch files start.
-SCRIPTS = {'demo_report.py', 'pose_adapter.py', 'view.py'} | {
+SCRIPTS = {'demo_report.py', 'organ_mesh_adapter', 'pose_adapter.py', 'view.py'} | {
     name for name in os.listdir(os.path.join(SOURCE, 'examples'))
     if name.endswith('.py') and os.access(os.path.join(SOURCE, 'examples', name), os.X_OK)}
-PROGRAMS = {'organ_collision_node', 'robot_reader', 'organ_mesh_adapter', 'haptic_proxy', 'tool_guard', 'query_offline', 'replay',
+PROGRAMS = {'organ_collision_node', 'robot_reader', 'haptic_proxy', 'tool_guard', 'query_offline', 'replay',
             'liver_simulator', 'fem_tissue', 'stylus_driver'}
 SHIPPED = [folder + '/' + name for folder in ('launch', 'config', 'urdf', 'msg', 'srv')
            for name in os.listdir(os.path.join(SOURCE, folder)) if os.path.isfile(os.path.join(SOURCE, folder, name))]
@@ -109,7 +109,7 @@ class InstallTest(unittest.TestCase):
     def test_rosrun_finds_each_program(self):
         """In a shell that has loaded only one space. Modules that a script imports from its own folder are no programs:
         they may not be executed."""
-        own = ('demo_report.py', 'pose_adapter.py', 'view.py')
+        own = ('demo_report.py', 'organ_mesh_adapter', 'pose_adapter.py', 'view.py')
         sources = [os.path.join(SOURCE, 'scripts' if name in own else 'examples', name) for name in SCRIPTS]
         built = [os.path.join(DEVEL, 'lib/organ_collision', name) for name in PROGRAMS]
         installed = [path for path in glob.glob(os.path.join(self.prefix, 'lib/organ_collision/*'))

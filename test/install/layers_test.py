@@ -17,7 +17,7 @@ FILES = dict(argument.split('=', 1) for argument in sys.argv[2:])
 CORE = ['geometry', 'picking', 'query']
 MAY_INCLUDE = {
     'geometry': [], 'picking': CORE[:1], 'query': CORE[:2], 'common': ['geometry'], 'node': CORE + ['common'],
-    'haptics': CORE + ['common', 'node'], 'adapters': ['geometry', 'common'], 'guard': ['geometry', 'common'], 'demo': ['geometry', 'common'],
+    'haptics': CORE + ['common', 'node'], 'guard': ['geometry', 'common'], 'demo': ['geometry', 'common'],
     'programs/mesh_reader': ['geometry', 'common'], 'programs/robot_reader': ['geometry', 'common', 'programs/mesh_reader'],
     'programs/query_offline': CORE + ['common', 'programs/mesh_reader'], 'programs/replay': CORE + ['common', 'node'],
 }
@@ -91,8 +91,7 @@ class LayersTest(unittest.TestCase):
         core = ['geometry', 'picking', 'query']
         for name, *patterns in (
                 [[name, ROS_LIBRARIES, PARSERS] for name in core] +
-                [['node', PARSERS], ['organ_mesh_adapter', PARSERS, 'liborgan_collision_(?!geometry)'],
-                 ['tool_guard', PARSERS, 'liborgan_collision_(?!geometry)'],
+                [['node', PARSERS], ['tool_guard', PARSERS, 'liborgan_collision_(?!geometry)'],
                  ['liver_simulator', PARSERS, 'liborgan_collision_(?!geometry)'],
                  ['robot_reader', ROS_LIBRARIES], ['query_offline', ROS_LIBRARIES]]):
             linked = subprocess.check_output(['ldd', FILES[name]], text=True)

@@ -74,11 +74,9 @@ TEST_P(InvarianceWith, AShaftThatABodyCarriesMovesAsALinkOfItsShape) {
     carried.path = {{0.0, {from * shape.trocar, from * shape.tip}},
                     {1.0, {to * shape.trocar, to * shape.tip}}};
     const std::vector<FaceContact> straight = contacts(carried);
-    const auto arc = [&](const Vector3d& end) {
-      const EndCarrier before{Eigen::Quaterniond(from.linear()), from.linear() * end};
-      return before.arc_to({Eigen::Quaterniond(to.linear()), to.linear() * end});
-    };
-    carried.path[1].arcs = {arc(shape.trocar), arc(shape.tip)};
+    const std::vector<Eigen::Isometry3d> start = {from}, end = {to};
+    const ChainMotion body{std::make_shared<JointChain>(start, end)};
+    carried.path[1].arcs = {ShaftArc(body, shape.trocar), ShaftArc(body, shape.tip)};
     carried.margin = 0.05;
     const std::vector<FaceContact> of_shaft = contacts(carried);
     const ToolClearance clearance = result_.clearance;

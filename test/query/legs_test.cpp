@@ -14,6 +14,15 @@ using oracle::Random;
 
 constexpr int kSamples = 20;
 
+/// The motion of two joints that turn.
+ChainMotion chain(const std::vector<Isometry3d>& start, const Eigen::Matrix3d& first,
+                  const Eigen::Matrix3d& second) {
+  std::vector<Isometry3d> end = start;
+  end[0].linear() *= first;
+  end[1].linear() *= second;
+  return {std::make_shared<JointChain>(start, end)};
+}
+
 /// A path of a shaft and one link that drift, rotate and tremble.
 ToolPath wandering(std::size_t count, double tremor, Random& random) {
   ToolPath path = {{0.0, random_axis(random), {oracle::random_pose(0.1, random)}}};
@@ -25,10 +34,23 @@ ToolPath wandering(std::size_t count, double tremor, Random& random) {
     next.axis.tip += drift + tremor * random.direction();
     next.axis.trocar += tremor * random.direction();
     for (ShaftArc& arc : next.arcs) {
-      arc = {random.scale(1e-6, 0.1) * random.direction(), random.point(0.2)};
+      const auto turned = oracle::random_turn(random.scale(1e-6, 0.1), random);
+      const auto along = oracle::random_turn(random.scale(1e-6, 0.1), random);
+      arc = ShaftArc(chain({oracle::random_pose(0.1, random), oracle::random_pose(0.2, random)},
+                           turned, along),
+                     random.point(0.2));
     }
     next.links[0].translation() += drift + tremor * random.direction();
     next.links[0].linear() *= turn * oracle::random_turn(tremor, random);
+    next.joints.clear();
+    if (i % 3 == 0) {
+      const Isometry3d& before = path.back().links[0];
+      const Isometry3d last = oracle::random_pose(0.02, random);
+      const ChainMotion joints = chain({before * last.inverse(), last}, Isometry3d(turn).linear(),
+                                       oracle::random_turn(tremor, random));
+      next.links[0] = joints.at(1.0);
+      next.joints = {joints};
+    }
     path.push_back(next);
   }
   return path;
@@ -103,8 +125,12 @@ TEST(LegSpan, BoundsHowFarALinkIsFromItsChord) {
     EXPECT_LE(chord.angle(), 1.01 * kMaxRotation);
     double most = 0.0;
     for_each_time(path, span, [&](std::size_t on, double time, double chord_time) {
-      const Isometry3d pose = RigidMotion(path[on].links[0], path[on + 1].links[0]).at(time);
-      const Isometry3d on_chord = chord.at(chord_time);
+      const auto& joints = path[on + 1].joints;
+      const Isometry3d pose = RigidMotion(path[on].links[0], path[on + 1].links[0],
+                                          joints.empty() ? ChainMotion{} : joints[0])
+                                  .at(time);
+      const Isometry3d on_chord =
+          span.leg_count() == 1 ? pose : chord.at(chord_time);  // As Step::link_motion() does.
       for (const LinkPart& part : link.parts) {
         for (std::size_t k = 0; k < part.core.count; ++k) {
           const Vector3d& point = part.core.points[k];
@@ -182,20 +208,29 @@ TEST(RotationSubdivision, DividesLongRotationsAlongTheSameWay) {
     EXPECT_NEAR(to.axis.tip.x(), 0.1 * to.fraction, 1e-15);
   }
 
-  // A shaft whose tip is carried along moves as before, too.
-  const ShaftArc arc{2.9 * Vector3d(0.6, 0.0, 0.8), {0.1, -0.3, 0.2}};
-  ToolPath carried = {{0.0, {{0.0, 0.0, 0.0}, {0.1, 0.2, 0.3}}},
-                      {1.0, {{0.0, 0.1, 0.0}, {0.3, 0.1, 0.3}}, {}, {ShaftArc{}, arc}}};
+  // A shaft whose tip is carried along moves as before, too, and so does a link on joints.
+  const ChainMotion joints =
+      chain({Isometry3d(Eigen::Translation3d(0.1, -0.3, 0.2)),
+             Isometry3d(Eigen::Translation3d(0.1, 0.0, 0.1))},
+            Eigen::AngleAxisd(1.9, Vector3d(0.6, 0.0, 0.8)).toRotationMatrix(),
+            Eigen::AngleAxisd(1.0, Vector3d(0.0, 1.0, 0.0)).toRotationMatrix());
+  const ShaftArc arc(joints, {0.1, -0.3, 0.2});
+  ToolPath carried = {
+      {0.0, {{0.0, 0.0, 0.0}, {0.1, 0.2, 0.3}}, {joints.at(0.0)}},
+      {1.0, {{0.0, 0.1, 0.0}, {0.3, 0.1, 0.3}}, {joints.at(1.0)}, {ShaftArc{}, arc}, {joints}}};
   const ShaftMotion motion{carried[0].axis, carried[1].axis, carried[1].arcs};
   ASSERT_EQ(with_subdivided_rotations(carried, finer).size(), 16U);
   for (std::size_t i = 1; i < finer.size(); ++i) {
     const ShaftMotion leg{finer[i - 1].axis, finer[i].axis, finer[i].arcs};
-    EXPECT_LE(leg.arcs[1].turn.norm(), kMaxRotation);
+    EXPECT_LE(leg.arcs[1].angle(), kMaxRotation);
     for (const double time : {0.0, 0.3, 1.0}) {
       const ShaftAxis right =
           motion.at(finer[i - 1].fraction + time * (finer[i].fraction - finer[i - 1].fraction));
-      EXPECT_LE((leg.at(time).tip - right.tip).norm(), 1e-15);
+      EXPECT_LE((leg.at(time).tip - right.tip).norm(), 2e-15);
       EXPECT_LE((leg.at(time).trocar - right.trocar).norm(), 1e-15);
+      const double now = finer[i - 1].fraction + time * (finer[i].fraction - finer[i - 1].fraction);
+      const RigidMotion link(finer[i - 1].links[0], finer[i].links[0], finer[i].joints[0]);
+      EXPECT_TRUE(link.at(time).isApprox(joints.at(now), 1e-14));
     }
   }
 

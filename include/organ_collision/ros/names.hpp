@@ -48,6 +48,7 @@ inline constexpr char kRadius[] = "radius";
 inline constexpr char kLinks[] = "links";
 inline constexpr char kFirstJaw[] = "first_jaw";
 inline constexpr char kSecondJaw[] = "second_jaw";
+inline constexpr char kGraspGap[] = "grasp_gap";
 inline constexpr char kRobotDescription[] = "robot_description";
 inline constexpr char kUrdf[] = "urdf";
 inline constexpr char kTfPrefix[] = "tf_prefix";

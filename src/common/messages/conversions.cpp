@@ -32,7 +32,18 @@ std::string tf_frame(const std::string& frame_id) {
   return frame_id.empty() || frame_id.front() != '/' ? frame_id : frame_id.substr(1);
 }
 
+ros::Time later(ros::Time time, double seconds) {
+  constexpr std::uint64_t kLast = 4'294'967'295'999'999'999;  // [ns] Of an unsigned 32-bit second.
+  const std::uint64_t start = time.toNSec();
+  const double added = std::min(1e9 * std::max(seconds, 0.0), static_cast<double>(kLast - start));
+  return ros::Time().fromNSec(std::min(kLast, start + static_cast<std::uint64_t>(added)));
+}
+
 std::string ahead_fault(ros::Time stamp, ros::Time now, double max_ahead_sec) {
+  if (stamp.sec > kLatestStamp) {
+    return concatenate("the stamp ", stamp, " is beyond what TF can take; at most ", kLatestStamp,
+                       " s are allowed");
+  }
   const double ahead_sec = stamp.toSec() - now.toSec();
   if (now.isZero() || ahead_sec <= max_ahead_sec) return {};
   return concatenate("the stamp ", stamp, " is ", ahead_sec,

@@ -51,8 +51,13 @@ inline constexpr double kClockTolerance = 0.02;
 /// otherwise.
 inline constexpr double kMaxAheadDefault = 1.0;
 
-/// Why a stamp is refused: it is ahead of the clock by more than `max_ahead_sec`. Empty if the
-/// stamp is accepted. Before simulated time begins, `now` is zero and every stamp is accepted.
+/// [s] The latest stamp that is accepted. tf2 adds the time for which it keeps transforms to
+/// stamps, and throws if the sum has more than 32 bits.
+inline constexpr std::uint32_t kLatestStamp = 4'294'967'000;
+
+/// Why a stamp is refused: it is ahead of the clock by more than `max_ahead_sec`, or later than
+/// kLatestStamp. Empty if the stamp is accepted. Before simulated time begins, `now` is zero and no
+/// stamp is ahead.
 std::string ahead_fault(ros::Time stamp, ros::Time now, double max_ahead_sec);
 
 /// [ns] from one time to another. ros::Duration overflows for extreme stamps.
@@ -63,6 +68,10 @@ inline std::int64_t nanoseconds_between(ros::Time from, ros::Time to) {
 inline double seconds_between(ros::Time from, ros::Time to) {
   return 1e-9 * static_cast<double>(nanoseconds_between(from, to));
 }
+
+/// The time `seconds` (not negative) later, or the last time that ROS knows if that comes first.
+/// ros::Time throws for it.
+ros::Time later(ros::Time time, double seconds);
 
 /// Whether what moved in its last message, which came at `received`, still counts as moving with
 /// the same velocity at `now`: for five times the time `period_sec` [s] between two messages, and
