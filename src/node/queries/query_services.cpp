@@ -195,11 +195,12 @@ void QueryServices::answer_motions(std::size_t motions, bool stops_at_contact,
     return stops_at_contact && std::any_of(of_motion.begin(), of_motion.end(), touches);
   };
   std::vector<std::vector<ContactArray>> made(motions);
-  std::atomic<std::size_t> bytes_made{0};
+  // Counted as below. Otherwise, the rest might be skipped without a refusal.
+  std::atomic<std::size_t> bytes_made{serializationLength(response)};
   const auto evaluate = [&](std::size_t worker, std::size_t motion) {
     if (ended_) throw std::runtime_error("the node is about to end");
     made[motion] = answer_motion(motion, batch_threads_->query(worker));
-    bytes_made += serializationLength(made[motion]);
+    for (const ContactArray& answer : made[motion]) bytes_made += serializationLength(answer);
     if (is_last(made[motion]) || bytes_made > most_bytes) batch_threads_->skip_rest();
   };
 
