@@ -6,6 +6,7 @@
 
 #include "common/messages/conversions.hpp"
 #include "common/messages/failure_log.hpp"
+#include "common/messages/finite.hpp"
 #include "common/messages/text.hpp"
 #include "geometry/concatenate.hpp"
 
@@ -191,6 +192,7 @@ std::string ToolGuard::untrusted(const Organ& organ, GuardTime now) const {
   const double age = seconds_between(answer.header.stamp, now.ros);
   const double oldest = std::max(age, now.steady - organ.arrived);
   if (answer.status != ContactArray::OK) return reason_of(answer.status) + ": " + answer.message;
+  if (!is_finite(answer)) return "a place or a distance in the answer is not a finite number";
   if (age < -kClockTolerance) return concatenate("the answer is ", -age, " s ahead of the clock");
   if (oldest > parameters_.longest_age()) {
     return concatenate("the last answer is ", oldest, " s old; at most ", parameters_.longest_age(),

@@ -1,14 +1,13 @@
 #include "organ_collision/query/collision_query.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
+#include "around_finder.hpp"
 #include "clearance_finder.hpp"
 #include "contact_finder.hpp"
 #include "moving_part.hpp"
 #include "placement_finder.hpp"
-#include "proxy/patch_finder.hpp"
 #include "request_check.hpp"
 
 namespace organ_collision {
@@ -70,16 +69,13 @@ struct CollisionQuery::State {
       : picker(make_picker(settings)), contacts(*picker), placement(*picker) {}
 
   void evaluate(const CollisionRequest& request, CollisionResult& result);
-  void find_around(const Step& at_end, const CollisionRequest& request, CollisionResult& result);
+  void find_around(const Step& step, const CollisionRequest& request, CollisionResult& result);
 
   std::unique_ptr<Picker> picker;
   ContactFinder contacts;
   ClearanceFinder clearance;
   PlacementFinder placement;
-  PatchFinder patches;
-  std::vector<PatchFinder::Limits> patch_limits;
-  std::vector<std::size_t> patch_counts;  ///< of the shaft, and of each link
-  std::vector<PatchFinder::Found> found_patches;
+  AroundFinder around;
   BlockBoxes boxes_before;
   ToolPath subdivided_path;
 };
@@ -122,38 +118,22 @@ void CollisionQuery::State::evaluate(const CollisionRequest& request, CollisionR
   if (asks_for_clearance(request)) {
     result.clearance = clearance.find(step, request, result.contacts, end);
   }
-  if (request.max_near > 0) find_around(step.at_end(), request, result);
+  if (request.max_near > 0) find_around(step, request, result);
   for (std::vector<FaceContact>* faces : {&result.contacts, &result.near, &result.around}) {
     for (FaceContact& at : *faces) at.velocity = tissue_velocity(request, at.face, at.barycentric);
   }
   if (request.placement) placement.find(request, result.placement);
 }
 
-/// Sets `around`: a plane covers all faces beyond it, however far away. The clearance must be
-/// known.
-void CollisionQuery::State::find_around(const Step& at_end, const CollisionRequest& request,
+/// Sets `around`. The clearance must be known.
+void CollisionQuery::State::find_around(const Step& step, const CollisionRequest& request,
                                         CollisionResult& result) {
-  constexpr std::size_t kMostTests = 2000;
   constexpr double kFarther = 0.01;  // [m]
-  const bool is_known = result.clearance.state == ClearanceState::kKnown;
-  const double up_to =
-      is_known ? std::min(request.margin, std::max(0.0, result.clearance.distance) + kFarther)
-               : request.margin;
-  const PatchFinder::Limits limits{up_to, std::numeric_limits<double>::infinity(), 0.0};
-  const std::size_t links = 1 + (request.links ? request.links->size() : 0);
-  patch_limits.assign(links, limits);
-  patch_counts.assign(links, 0);
-  std::size_t tests = kMostTests;
-  found_patches.clear();
-  const bool is_complete =
-      !is_known || patches.find(at_end, patch_limits, {}, {}, tests, found_patches);
-  for (const PatchFinder::Found& patch : found_patches) {
-    result.around.push_back(patch.contact);
-    result.around.back().depth = -patch.distance;
-    ++patch_counts[part_index(patch.contact.link)];
-  }
-  const std::size_t most = *std::max_element(patch_counts.begin(), patch_counts.end());
-  if (is_complete && most < PatchFinder::kMost) result.around_up_to = up_to;
+  result.around_up_to = request.margin;
+  if (result.clearance.state != ClearanceState::kKnown) return;
+  const double nearest = std::min(request.margin, std::max(0.0, result.clearance.distance));
+  const double farthest = std::min(request.margin, nearest + kFarther);
+  result.around_up_to = around.find(step.at_end(), nearest, farthest, result.around);
 }
 
 }  // namespace organ_collision

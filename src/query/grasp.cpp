@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 namespace organ_collision {
@@ -13,6 +14,8 @@ using Eigen::Vector3d;
 
 /// [m] Contacts that are nearer than this have no line between them: only their normals count.
 constexpr double kSamePlace = 1e-6;
+/// [1] Squares of equal lengths differ by less.
+constexpr double kRounding = 1.0 + 1e-12;
 /// How far jaws that hold may open until they let go.
 constexpr double kLeastOpening = 1e-3, kMostOpening = 2.0;  // [m], [thickness]
 /// From which growth of the distance on the jaws count as opened when tissue is let go.
@@ -20,18 +23,61 @@ constexpr double kOpenedBy = 2e-4, kOpenedTimes = 1.05;  // [m], [1]
 
 double cosine(double degrees) { return std::cos(degrees * std::acos(-1.0) / 180.0); }
 
-/// Whether both normals point at the other contact. `d`: from the first contact to the second [m],
-/// `length` its length.
-bool oppose(const JawContact& first, const JawContact& second, const Vector3d& d, double length,
-            double least_cosine) {
-  if (length < kSamePlace) return first.normal.dot(second.normal) <= -least_cosine;
-  return first.normal.dot(d) >= least_cosine * length &&
-         -second.normal.dot(d) >= least_cosine * length;
-}
-
 /// Whether the contacts are on opposite sides of one face, which both jaws touch.
 bool are_on_one_face(const JawContact& first, const JawContact& second) {
   return first.face == second.face && first.normal.dot(second.normal) < 0.0;
+}
+
+/// Calls use(i, k) for each contact of the first jaw and each of the second on the same face. Both
+/// are sorted by face.
+template <typename Use>
+void for_each_on_one_face(const std::vector<JawContact>& first,
+                          const std::vector<JawContact>& second, const Use& use) {
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    while (begin < second.size() && second[begin].face < first[i].face) ++begin;
+    for (std::size_t k = begin; k < second.size() && second[k].face == first[i].face; ++k)
+      use(i, k);
+  }
+}
+
+/// A contact of a jaw, and where it is along an axis.
+struct Along {
+  double place;  ///< [m]
+  std::size_t number;
+  Vector3d on_organ, normal;  ///< as in JawContact
+};
+
+/// Whether both normals point at the other contact. `d`: from the first contact to the second [m],
+/// `squared` [m^2] the square of its length.
+bool oppose(const Along& first, const Along& second, const Vector3d& d, double squared,
+            double least_cosine) {
+  if (squared < kSamePlace * kSamePlace) return first.normal.dot(second.normal) <= -least_cosine;
+  const double along = std::min(first.normal.dot(d), -second.normal.dot(d));
+  return along * std::abs(along) >= least_cosine * least_cosine * squared;
+}
+
+std::vector<Along> sort_along(const Vector3d& axis, const std::vector<JawContact>& contacts) {
+  std::vector<Along> sorted;
+  sorted.reserve(contacts.size());
+  for (const JawContact& contact : contacts) {
+    sorted.push_back({axis.dot(contact.on_organ), sorted.size(), contact.on_organ, contact.normal});
+  }
+  std::sort(sorted.begin(), sorted.end(),
+            [](const Along& a, const Along& b) { return a.place < b.place; });
+  return sorted;
+}
+
+/// The unit vector from the first jaw's contacts to the second's; zero if they are at one place.
+Vector3d axis_between(const std::vector<JawContact>& first, const std::vector<JawContact>& second) {
+  const auto sum_of = [](const std::vector<JawContact>& contacts) {
+    Vector3d sum(0.0, 0.0, 0.0);
+    for (const JawContact& contact : contacts) sum += contact.on_organ;
+    return sum;
+  };
+  return (sum_of(second) * static_cast<double>(first.size()) -
+          sum_of(first) * static_cast<double>(second.size()))
+      .normalized();
 }
 
 /// Where the contacts would be if their jaws had other poses [m].
@@ -130,18 +176,31 @@ std::optional<OpposingPair> GraspMemory::find_pair(const JawsAnswer& now, double
     second_wide = carried(second, now.links, widest_->links);
   }
   OpposingPair best{0, 0, std::numeric_limits<double>::infinity()};
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    for (std::size_t k = 0; k < second.size(); ++k) {
-      const bool is_one_face = are_on_one_face(first[i], second[k]);
-      const Vector3d d = second[k].on_organ - first[i].on_organ;
-      const double distance = is_one_face ? 0.0 : d.norm();
-      if (distance >= best.distance) continue;
+  const auto keep_nearer = [&](const OpposingPair& pair) {
+    const auto rank = [](const OpposingPair& p) { return std::tie(p.distance, p.first, p.second); };
+    if (rank(pair) < rank(best)) best = pair;
+  };
+  for_each_on_one_face(first, second, [&](std::size_t i, std::size_t k) {
+    if (are_on_one_face(first[i], second[k])) keep_nearer({i, k, 0.0});
+  });
+  // Places that are farther apart along an axis than the best pair are not nearer than it. Between
+  // the jaws, this leaves few of all pairs.
+  const Vector3d axis = axis_between(first, second);
+  const std::vector<Along> of_first = sort_along(-axis, first);
+  const std::vector<Along> of_second = sort_along(axis, second);
+  for (const Along& a : of_first) {
+    for (const Along& b : of_second) {
+      const double apart = b.place + a.place;
+      if (apart > best.distance) break;
+      const Vector3d d = b.on_organ - a.on_organ;
+      const double squared = d.squaredNorm();
+      if (squared > kRounding * best.distance * best.distance) continue;
       const auto closed_on_it = [&] {
-        return !first_wide.empty() && distance <= reach &&
-               (second_wide[k] - first_wide[i]).norm() > 2.0 * gap;
+        return !first_wide.empty() && squared <= reach * reach &&
+               (second_wide[b.number] - first_wide[a.number]).squaredNorm() > 4.0 * gap * gap;
       };
-      if (is_one_face || oppose(first[i], second[k], d, distance, least_cosine) || closed_on_it()) {
-        best = {i, k, distance};
+      if (oppose(a, b, d, squared, least_cosine) || closed_on_it()) {
+        keep_nearer({a.number, b.number, std::sqrt(squared)});
       }
     }
   }

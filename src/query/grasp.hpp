@@ -20,10 +20,10 @@ struct JawContact {
 /// What an answer OK tells of the jaws of a tool and one organ, at the end of its step.
 struct JawsAnswer {
   std::chrono::nanoseconds stamp;
-  bool same_triangles;  ///< the last answer OK had the same triangles
-  std::array<std::vector<JawContact>, 2> contacts;
-  std::array<Eigen::Vector3d, 2> centers;  ///< [m] of the jaws' boxes
-  std::vector<Eigen::Isometry3d> links;    ///< T_organ_link of the tool's links
+  bool same_triangles;                              ///< the last answer OK had the same triangles
+  std::array<std::vector<JawContact>, 2> contacts;  ///< sorted by face
+  std::array<Eigen::Vector3d, 2> centers;           ///< [m] of the jaws' boxes
+  std::vector<Eigen::Isometry3d> links;             ///< T_organ_link of the tool's links
 };
 
 /// What decides whether jaws grasp, beside the definition in msg/Grasp.msg.

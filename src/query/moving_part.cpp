@@ -91,6 +91,11 @@ std::optional<ClosestApproach> MovingPart::closest_approach(const FaceMotion& fa
   return organ_collision::closest_approach(core_, face, distance_bound, budget);
 }
 
+std::optional<ClosestPoints> MovingPart::closest_at_start(const Triangle& face,
+                                                          double bound) const {
+  return closest_points(core_.start(), face, bound);
+}
+
 FaceContact MovingPart::contact(const FirstTouch& touch, const FaceMotion& face,
                                 const Triangle& face_at_end) const {
   const ClosestPoints& closest = touch.closest;
@@ -155,6 +160,13 @@ std::optional<ClosestApproach> MovingSurface::closest_approach(const FaceMotion&
                                                                double distance_bound,
                                                                WorkBudget& budget) const {
   return organ_collision::closest_approach(*part_.surface, motion_, face, distance_bound, budget);
+}
+
+std::optional<ClosestPoints> MovingSurface::closest_at_start(const Triangle& face,
+                                                             double bound) const {
+  WorkBudget budget = WorkBudget::unlimited();
+  const auto approach = closest_approach({face, face}, bound, budget);
+  return approach ? std::optional(approach->closest) : std::nullopt;
 }
 
 PartOnLeg::PartOnLeg(const Step& step, const LegSpan& span, const ToolPart& part) {

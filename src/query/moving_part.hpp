@@ -48,6 +48,15 @@ class MovingPart {
   virtual std::optional<ClosestApproach> closest_approach(const FaceMotion& face,
                                                           double distance_bound,
                                                           WorkBudget& budget) const;
+  /// The closest points of the part, as it is at the start of the leg, and a face. Nothing if they
+  /// are farther apart than `bound` [m].
+  virtual std::optional<ClosestPoints> closest_at_start(const Triangle& face, double bound) const;
+  /// [m] The largest normal . x of the core or surface at the start of the leg. `closest`: its
+  /// closest points with something in the direction of `normal`.
+  virtual double support_at_start(const Eigen::Vector3d& normal,
+                                  const ClosestPoints& closest) const {
+    return normal.dot(closest.on_core);
+  }
 
   /// The contact that describes a first touch. The caller sets the number and the vertices of the
   /// face, and the fraction. `face_at_end`: where the face is at the end of the step.
@@ -152,6 +161,11 @@ class MovingSurface final : public MovingLinkPart {
                     std::vector<FaceTouch>& faces) const override;
   std::optional<ClosestApproach> closest_approach(const FaceMotion& face, double distance_bound,
                                                   WorkBudget& budget) const override;
+  std::optional<ClosestPoints> closest_at_start(const Triangle& face, double bound) const override;
+  double support_at_start(const Eigen::Vector3d& normal,
+                          const ClosestPoints& /*closest*/) const override {
+    return plane(normal).support();
+  }
 };
 
 /// Which part of a tool.

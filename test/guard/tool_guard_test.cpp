@@ -61,6 +61,10 @@ TEST_F(ToolGuardTest, EachCauseStopsTheToolAndIsNamed) {
          a.status = ContactArray::NO_TRANSFORM;
          a.message = "lost";
        }},
+      {{"not a finite number"}, [](auto& a) { a.clearance.distance = kUnlimited; }},
+      {{"not a finite number"}, [](auto& a) { a.clearance.closing_speed = std::nan(""); }},
+      {{"not a finite number"}, [](auto& a) { a.near[0].velocity.z = std::nan(""); }},
+      {{"not a finite number"}, [](auto& a) { a.around.emplace_back().depth = -kUnlimited; }},
       {{"margin"}, [](auto& a) { a.clearance.state = Clearance::NOT_ASKED; }},
       {{"ahead"}, [](auto& a) { a.header.stamp += ros::Duration(0.03); }},
       {{"old"}, [](auto& a) { a.header.stamp -= ros::Duration(0.07); }},

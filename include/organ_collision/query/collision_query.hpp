@@ -133,8 +133,9 @@ struct CollisionResult {
   /// `around_up_to` is farther from a link than one of the link's faces here, in the same
   /// direction: beyond the plane at right angles to its normal, at 4/5 of its distance or more.
   std::vector<FaceContact> around;
-  /// [m] The least distance plus 0.01, or the margin if that is less. 0: `around` is not asked for,
-  /// or not complete.
+  /// [m] The least distance plus 0.01, or the margin if that is less. It is lower where many fine
+  /// faces are that near, because the work of a query is bounded, but at least the least distance.
+  /// 0: `around` is not asked for.
   double around_up_to = 0.0;
   /// How many faces had to be looked at one by one.
   PickCounts picked;

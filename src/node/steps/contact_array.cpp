@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <iterator>
 #include <tuple>
 
+#include "common/messages/finite.hpp"
 #include "common/messages/text.hpp"
 #include "geometry/concatenate.hpp"
 #include "query/make_request.hpp"
@@ -212,6 +214,11 @@ double ContactQuery::evaluate(const CollisionRequest& request, ContactArray& ans
   answer.near_unresolved = static_cast<std::uint32_t>(result_.near_unresolved);
   answer.clearance = to_message(result_.clearance);
   answer.placement = to_message(result_.placement);
+  if (!is_finite(answer)) {
+    set_failure(answer, ContactArray::INVALID_REQUEST,
+                "no answer: a place or a distance in it is not a finite number");
+    return 0.0;
+  }
   return query_time.count();
 }
 

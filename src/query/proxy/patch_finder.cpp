@@ -28,16 +28,6 @@ double lowest(const Vector3d& direction, const Triangle& face, const Vector3d& c
                    direction.dot(face[2]) - come[2]});
 }
 
-/// The closest points of a part at rest and a face. Nothing if they are farther apart than `bound`.
-std::optional<ClosestPoints> measure(const MovingPart& part, bool is_convex, const FaceMotion& face,
-                                     double bound) {
-  if (is_convex) return closest_points(part.core().start(), face.end, bound);
-  WorkBudget budget = WorkBudget::unlimited();
-  const auto approach = part.closest_approach(face, bound, budget);
-  if (!approach) return std::nullopt;
-  return approach->closest;
-}
-
 }  // namespace
 
 bool PatchFinder::find(const Step& step, const std::vector<Limits>& of_parts, const Coming& late,
@@ -48,42 +38,34 @@ bool PatchFinder::find(const Step& step, const std::vector<Limits>& of_parts, co
     if (limits.distance == 0.0) return;
     const PartOnLeg moving(step, span, part);
     const OrganMotion organ = step.organ_motion(span);
-    const bool is_convex = !part.shape || !part.shape->surface;
     const double bound = limits.distance + moving->radius();
     Nearest nearest{bound, bound};
-    const auto search = [&](bool again) {
-      last_ = 0;
-      const std::size_t left = search_.visit(
-          organ, moving->bounds(), [&] { return bound; },
-          [&](const BlockBoxes::Box& box) { return is_covered(box, soon.most, nearest); },
-          [&](std::uint32_t face) {
-            const FaceMotion motion = organ.face(organ.after().faces()[face]);
-            const auto is_it = [face](const Patch& patch) { return patch.face == face; };
-            if (is_covered(face, motion.end, soon, nearest) ||
-                (again && std::any_of(patches_.begin(), patches_.end(), is_it))) {
-              return true;
-            }
-            if (tests == 0) return false;
-            --tests;
-            const auto closest = measure(*moving, is_convex, motion, bound);
-            if (!closest || closest->distance > bound) return true;
-            Patch& patch = patches_.emplace_back(face, *closest, *moving, is_convex, limits);
-            patch.ahead = distance_ahead(patch, *moving, is_convex, limits, motion.end, soon);
-            // The share of the distance beyond the clearance is that of the distance ahead.
-            patch.roughness =
-                std::max(kRoughness * limits.clearance,
-                         patch.roughness - kRoughnessBeyond * (closest->distance - patch.ahead));
-            nearest.now = std::min(nearest.now, closest->distance);
-            nearest.ahead = std::min(nearest.ahead, patch.ahead);
-            return true;
-          });
-      if (left > 0) is_complete = false;
-      std::sort(patches_.begin(), patches_.end(), [](const Patch& a, const Patch& b) {
-        return std::tie(a.ahead, a.face) < std::tie(b.ahead, b.face);
-      });
-    };
     patches_.clear();
-    search(false);
+    last_ = 0;
+    const std::size_t left = search_.visit(
+        organ, moving->bounds(), [&] { return bound; },
+        [&](const BlockBoxes::Box& box) { return is_covered(box, soon.most, nearest); },
+        [&](std::uint32_t face) {
+          const Triangle corners = organ.after().triangle(face);
+          if (is_covered(face, corners, soon, nearest)) return true;
+          if (tests == 0) return false;
+          --tests;
+          const auto closest = moving->closest_at_start(corners, bound);
+          if (!closest || closest->distance > bound) return true;
+          Patch& patch = patches_.emplace_back(face, *closest, *moving, limits);
+          patch.ahead = distance_ahead(patch, *moving, limits, corners, soon);
+          // The share of the distance beyond the clearance is that of the distance ahead.
+          patch.roughness =
+              std::max(kRoughness * limits.clearance,
+                       patch.roughness - kRoughnessBeyond * (closest->distance - patch.ahead));
+          nearest.now = std::min(nearest.now, closest->distance);
+          nearest.ahead = std::min(nearest.ahead, patch.ahead);
+          return true;
+        });
+    if (left > 0) is_complete = false;
+    std::sort(patches_.begin(), patches_.end(), [](const Patch& a, const Patch& b) {
+      return std::tie(a.ahead, a.face) < std::tie(b.ahead, b.face);
+    });
     found_.swap(patches_);
     patches_.clear();
     for (const Patch& patch : found_) {
@@ -93,16 +75,12 @@ bool PatchFinder::find(const Step& step, const std::vector<Limits>& of_parts, co
         return (of.closest.on_face - patch.closest.on_face).norm() <= of.radius &&
                of.keeps_off(patch.face, face, soon, nearest);
       });
-      if (!is_covered) patches_.push_back(patch);
-    }
-    // A patch that is left out now may have covered faces far beside the patches that are left.
-    if (std::isinf(limits.patch)) search(true);
-    for (const Patch& patch : patches_) {
-      const Triangle face = organ.after().triangle(patch.face);
+      if (is_covered) continue;
+      patches_.push_back(patch);
       contacts.push_back(
           {contact_on(step, span.begin, *moving, patch.face, {0.0, patch.closest}),
            patch.closest.distance - moving->radius(),
-           patch.closest.distance - distance_ahead(patch, *moving, is_convex, limits, face, late)});
+           patch.closest.distance - distance_ahead(patch, *moving, limits, face, late)});
     }
   });
   return is_complete;
@@ -111,9 +89,8 @@ bool PatchFinder::find(const Step& step, const std::vector<Limits>& of_parts, co
 /// [m] How far the core of a part is from a face after its tissue has come, or less. Each plane
 /// between them is a lower bound of their distance. The first one is at right angles to the contact
 /// normal. Where the face turns as it comes, one beside it is better.
-double PatchFinder::distance_ahead(const Patch& patch, const MovingPart& part, bool is_convex,
-                                   const Limits& limits, const Triangle& corners,
-                                   const Coming& coming) {
+double PatchFinder::distance_ahead(const Patch& patch, const MovingPart& part, const Limits& limits,
+                                   const Triangle& corners, const Coming& coming) {
   const double now = patch.closest.distance;
   if (!coming.against || now <= tolerance::kPierced) return now;
   const Vector3d come = coming.against(patch.face, corners, patch.normal);
@@ -122,9 +99,9 @@ double PatchFinder::distance_ahead(const Patch& patch, const MovingPart& part, b
   if (come.maxCoeff() - come.minCoeff() > kRoughness * limits.clearance) {
     Triangle moved = corners;
     for (int k = 0; k < 3; ++k) moved[k] -= come[k] * patch.normal;
-    const auto closest = measure(part, is_convex, {moved, moved}, now);
+    const auto closest = part.closest_at_start(moved, now);
     if (closest && closest->distance > tolerance::kPierced && closest->distance < now) {
-      const Patch turned(patch.face, *closest, part, is_convex, limits);
+      const Patch turned(patch.face, *closest, part, limits);
       const Vector3d come_then = coming.against(patch.face, corners, turned.normal);
       ahead = std::max(ahead, lowest(turned.normal, corners, come_then) - turned.support);
     }
@@ -133,7 +110,7 @@ double PatchFinder::distance_ahead(const Patch& patch, const MovingPart& part, b
 }
 
 PatchFinder::Patch::Patch(std::uint32_t its_face, const ClosestPoints& its_closest,
-                          const MovingPart& part, bool is_convex, const Limits& limits)
+                          const MovingPart& part, const Limits& limits)
     : face(its_face), closest(its_closest), ahead(closest.distance) {
   const double distance = closest.distance - part.radius();
   radius = std::max(limits.patch, distance);
@@ -141,7 +118,7 @@ PatchFinder::Patch::Patch(std::uint32_t its_face, const ClosestPoints& its_close
       kRoughness * limits.clearance + kRoughnessBeyond * std::max(0.0, distance - limits.clearance);
   if (closest.distance <= tolerance::kPierced) return;
   normal = closest.separation.normalized();
-  support = is_convex ? normal.dot(closest.on_core) : part.plane(normal).support();
+  support = part.support_at_start(normal, closest);
 }
 
 bool PatchFinder::Patch::keeps_beyond(double lowest, double distance, double nearest) const {

@@ -27,8 +27,6 @@ inline std::size_t part_index(std::int32_t link) {
 /// memory between searches.
 class PatchFinder {
  public:
-  static constexpr std::size_t kMost = 64;
-
   /// What is searched by a part of the tool [m].
   struct Limits {
     double distance;   ///< up to this distance between tool and face; 0: the part does not search
@@ -56,8 +54,7 @@ class PatchFinder {
 
   /// Adds the contacts of a static query that are not covered. The nearest face of each part of the
   /// tool is never covered. At most kMost faces a part are added, the nearest ones after tissue has
-  /// come, and more only if Limits::patch is infinite: then each face is covered by one that is
-  /// added. Contacts of a part are sorted by this distance. `limits`: of the shaft, and of each
+  /// come. Contacts of a part are sorted by this distance. `limits`: of the shaft, and of each
   /// link. `late` tells the advance of each contact, and `soon` which faces are covered. Each test
   /// of a face against a part takes one of `tests`. Returns false if none was left before the end:
   /// nearer faces may be missing.
@@ -65,6 +62,8 @@ class PatchFinder {
             const Coming& soon, std::size_t& tests, std::vector<Found>& contacts);
 
  private:
+  static constexpr std::size_t kMost = 64;
+
   /// The distance of the nearest face from the core of the tool's part [m], so far.
   struct Nearest {
     double now, ahead;  ///< ahead: after tissue has come
@@ -73,7 +72,7 @@ class PatchFinder {
   /// A face that was found. All lengths belong to the core of the tool's part [m].
   struct Patch {
     Patch(std::uint32_t its_face, const ClosestPoints& its_closest, const MovingPart& part,
-          bool is_convex, const Limits& limits);
+          const Limits& limits);
 
     std::uint32_t face;
     ClosestPoints closest;
@@ -93,8 +92,8 @@ class PatchFinder {
                    const Nearest& nearest) const;
   };
 
-  static double distance_ahead(const Patch& patch, const MovingPart& part, bool is_convex,
-                               const Limits& limits, const Triangle& corners, const Coming& coming);
+  static double distance_ahead(const Patch& patch, const MovingPart& part, const Limits& limits,
+                               const Triangle& corners, const Coming& coming);
   bool is_covered(std::uint32_t number, const Triangle& face, const Coming& coming,
                   const Nearest& nearest);
   bool is_covered(const BlockBoxes::Box& box, double most, const Nearest& nearest) const;
