@@ -95,8 +95,9 @@ class InstallTest(unittest.TestCase):
             self.assertNotIn('not found', run('ldd', path), path)
         # The program that reads robots is where the node looks for it.
         urdf = os.path.join(self.prefix, 'share/organ_collision/urdf/grasper.urdf')
-        self.assertIn("link 'no_such_link' is unknown",
-                      run(os.path.join(self.programs, 'robot_reader'), urdf, 'no_such_link'))
+        reader = os.path.join(self.programs, 'robot_reader')
+        with self.assertRaisesRegex(AssertionError, "link 'no_such_link' is unknown"):
+            run(reader, urdf, 'no_such_link')
 
     def test_the_python_module_and_the_messages_share_a_package(self):
         modules = glob.glob(os.path.join(self.prefix, 'lib/python3*/*-packages'))
