@@ -14,6 +14,8 @@ using Eigen::Vector3d;
 // [1] How much nearer than the plane a covered face may be: a share of the clearance, which a proxy
 // keeps to 1 %, and a share of the distance beyond the clearance.
 constexpr double kRoughness = 0.005, kRoughnessBeyond = 0.05;
+/// To look how far a face comes costs a share of a test.
+constexpr std::size_t kLooksPerTest = 4;
 
 /// Whether all corners of a face are within a distance [m] of a point.
 bool is_within(double distance, const Vector3d& point, const Triangle& face) {
@@ -33,6 +35,14 @@ double lowest(const Vector3d& direction, const Triangle& face, const Vector3d& c
 bool PatchFinder::find(const Step& step, const std::vector<Limits>& of_parts, const Coming& late,
                        const Coming& soon, std::size_t& tests, std::vector<Found>& contacts) {
   bool is_complete = true;
+  std::size_t looks = 0;
+  Coming counted{{}, soon.most};
+  if (soon.against) {
+    counted.against = [&](std::uint32_t face, const Triangle& corners, const Vector3d& normal) {
+      ++looks;
+      return soon.against(face, corners, normal);
+    };
+  }
   for_each_part(step, [&](const ToolPart& part, const LegSpan& span) {
     const Limits& limits = of_parts[part_index(part.link)];
     if (limits.distance == 0.0) return;
@@ -46,14 +56,16 @@ bool PatchFinder::find(const Step& step, const std::vector<Limits>& of_parts, co
         organ, moving->bounds(), [&] { return bound; },
         [&](const BlockBoxes::Box& box) { return is_covered(box, soon.most, nearest); },
         [&](std::uint32_t face) {
-          const Triangle corners = organ.after().triangle(face);
-          if (is_covered(face, corners, soon, nearest)) return true;
+          tests -= std::min(tests, looks / kLooksPerTest);
+          looks %= kLooksPerTest;
           if (tests == 0) return false;
+          const Triangle corners = organ.after().triangle(face);
+          if (is_covered(face, corners, counted, nearest)) return true;
           --tests;
           const auto closest = moving->closest_at_start(corners, bound);
           if (!closest || closest->distance > bound) return true;
           Patch& patch = patches_.emplace_back(face, *closest, *moving, limits);
-          patch.ahead = distance_ahead(patch, *moving, limits, corners, soon);
+          patch.ahead = distance_ahead(patch, *moving, limits, corners, counted);
           // The share of the distance beyond the clearance is that of the distance ahead.
           patch.roughness =
               std::max(kRoughness * limits.clearance,

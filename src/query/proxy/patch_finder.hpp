@@ -56,8 +56,8 @@ class PatchFinder {
   /// tool is never covered. At most kMost faces a part are added, the nearest ones after tissue has
   /// come. Contacts of a part are sorted by this distance. `limits`: of the shaft, and of each
   /// link. `late` tells the advance of each contact, and `soon` which faces are covered. Each test
-  /// of a face against a part takes one of `tests`. Returns false if none was left before the end:
-  /// nearer faces may be missing.
+  /// of a face against a part takes one of `tests`, and so do some looks at how far faces come.
+  /// Returns false if none was left before the end: nearer faces may be missing.
   bool find(const Step& step, const std::vector<Limits>& limits, const Coming& late,
             const Coming& soon, std::size_t& tests, std::vector<Found>& contacts);
 
