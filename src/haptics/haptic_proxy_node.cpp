@@ -24,7 +24,8 @@ constexpr PathSampling kNoPaths{1.0, 1};
 }  // namespace
 
 HapticProxyNode::HapticProxyNode(NodeCore& core, const HapticProxyParameters& parameters)
-    : core_(core),
+    : OrganNode(inbox_),
+      core_(core),
       parameters_(parameters),
       inbox_(
           parameters, counters_.rejected,
@@ -54,16 +55,25 @@ void HapticProxyNode::start() {
            parameters_.stiffness);
 }
 
-void HapticProxyNode::watch_clock() {
-  if (!inbox_.watch_clock()) return;
-  reset_proxies("the clock jumped back");
+/// Begins anew if another history has begun. Shapes that wait and are ahead of the clock come from
+/// before it jumped.
+void HapticProxyNode::follow_history() {
+  const auto& [number, why] = inbox_.history();
+  if (std::exchange(history_, number) == number) return;
+  reset_proxies(why == "reset" ? "reset was called" : "the clock jumped back");
+  const ros::Time now = ros::Time::now();
+  const auto is_ahead = [now](const AwaitedShape& awaited) {
+    return seconds_between(now, awaited.shape.stamp) > kClockTolerance;
+  };
   for (Hand& hand : hands_) {
     hand.stamp = {};
-    hand.shapes.clear();
+    hand.shapes.erase(std::remove_if(hand.shapes.begin(), hand.shapes.end(), is_ahead),
+                      hand.shapes.end());
   }
 }
 
 void HapticProxyNode::handle(SteadyTime) {
+  follow_history();
   while (const auto update = inbox_.intake.next()) {
     has_new_shape_ = true;
     if (update->status == ContactArray::OK) counters_.meshes.count();
@@ -73,7 +83,7 @@ void HapticProxyNode::handle(SteadyTime) {
   follow_waiting_hands();
 }
 
-void HapticProxyNode::work() {
+std::optional<SteadyTime> HapticProxyNode::work() {
   follow_hands();
   publisher_.end_unused(SteadyClock::now());
   markers_.update(inbox_.organs, [this](double size) -> Drawing {
@@ -81,11 +91,7 @@ void HapticProxyNode::work() {
       for (const ProxyView& view : views) add_proxy(view, picture);
     };
   });
-}
-
-void HapticProxyNode::reset() {
-  inbox_.forget_history();
-  reset_proxies("reset was called");
+  return next_deadline();
 }
 
 void HapticProxyNode::parameters_changed() {
@@ -107,6 +113,7 @@ std::function<void()> HapticProxyNode::prepare_tools(std::vector<Tool>& tools,
   auto hands = std::make_shared<std::vector<Hand>>(make_hands(tools, kept));
   ProxyPublisher::Tools topics;
   run_in_thread_of(topics_thread_, [&] { topics = publisher_.prepare(tools); });
+  release_tools(kept);
   return [this, kept, streams, hands, topics]() mutable {
     for (std::size_t tool = 0; tool < kept.size(); ++tool) {
       if (kept[tool]) (*hands)[tool] = std::move(hands_[*kept[tool]]);

@@ -36,14 +36,10 @@ class HapticProxyNode final : public OrganNode {
   HapticProxyNode(NodeCore& core, const HapticProxyParameters& parameters);
 
   void start() override;
-  void watch_clock() override;
   void handle(SteadyTime now) override;
-  void work() override;
-  std::optional<SteadyTime> next_deadline() override;
-  void reset() override;
+  std::optional<SteadyTime> work() override;
   void parameters_changed() override;
   std::function<void()> prepare_tools(std::vector<Tool>& tools, const KeptTools& kept) override;
-  void release_tools(const KeptTools& kept) override;
   void end(const std::exception* fault) override;
 
  private:
@@ -76,6 +72,9 @@ class HapticProxyNode final : public OrganNode {
     std::deque<AwaitedShape> shapes = {};   ///< in lockstep: the oldest first
   };
 
+  void follow_history();
+  std::optional<SteadyTime> next_deadline();
+  void release_tools(const KeptTools& kept);
   void follow_waiting_hands();
   void follow_hands();
   void follow_hand(std::size_t tool, Time now);
@@ -110,6 +109,7 @@ class HapticProxyNode final : public OrganNode {
   OrganInterpolation shapes_;
   ProxyFrame frame_;
   std::vector<Hand> hands_;    ///< in the order of the tools
+  std::uint64_t history_ = 0;  ///< Inbox::history() of what is known of the hands
   bool has_new_shape_ = true;  ///< an organ got a new shape since follow_hands()
   Time started_;
   std::optional<Time> batch_began_;    ///< when the first message of this batch came

@@ -16,10 +16,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The organ's name for a proxy. When its sender restarts, the organ gets another name, and is
+/// The organ's name for a proxy. With another history, the organ gets another name, and is
 /// therefore another organ: it does not carry the proxy from the old shape to the new one.
 std::string name_of_history(const DeformableOrgan& organ) {
-  return organ.histories() == 0 ? organ.name() : concatenate(organ.name(), " ", organ.histories());
+  const auto& [number, why] = organ.history();
+  return why.empty() ? organ.name() : concatenate(organ.name(), " ", number);
 }
 
 /// [1] The least lever of a place near the trocar.

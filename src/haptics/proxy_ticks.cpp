@@ -232,9 +232,10 @@ void HapticProxyNode::tick(std::size_t tool, const Timed<ToolPose>& pose, const 
   counters_.ticks.count();
   counters_.tick_times.add(report.tick_sec);
   std::string doubt;  // Only if the hand is far from all organs.
-  for (const ProxyOrgan& organ : scene.organs) {
+  for (std::size_t i = 0; i < scene.organs.size(); ++i) {
+    const ProxyOrgan& organ = scene.organs[i];
     doubt = doubt_about_place(report.tool, pose.value.axis, pose.value.links, organ.T_organ_proxy,
-                              organ.name, organ.shape->box());
+                              scene.sources[i]->name(), organ.shape->box());
     if (doubt.empty()) break;
   }
   if (!doubt.empty()) counters_.doubted.add(report.tool.name, doubt, now);

@@ -36,14 +36,10 @@ class CollisionNode final : public OrganNode {
   CollisionNode(NodeCore& core, const NodeParameters& parameters);
 
   void start() override;
-  void watch_clock() override;
-  void handle(SteadyTime now) override { pipeline_.apply_organ_messages(now); }
-  void work() override;
-  std::optional<SteadyTime> next_deadline() override { return pipeline_.steps.next_deadline(); }
-  void reset() override;
+  void handle(SteadyTime now) override;
+  std::optional<SteadyTime> work() override;
   void parameters_changed() override;
   std::function<void()> prepare_tools(std::vector<Tool>& tools, const KeptTools& kept) override;
-  void release_tools(const KeptTools&) override {}
   void end(const std::exception* fault) override;
 
  private:
@@ -70,7 +66,8 @@ class CollisionNode final : public OrganNode {
 };
 
 CollisionNode::CollisionNode(NodeCore& core, const NodeParameters& parameters)
-    : core_(core),
+    : OrganNode(pipeline_.inbox),
+      core_(core),
       parameters_(parameters),
       contacts_(core.private_node().advertise<ContactArray>(names::kContacts, kContactQueue)),
       touch_events_(core.private_node().advertise<TouchEvent>(names::kTouches, kTouchQueue)),
@@ -104,20 +101,17 @@ void CollisionNode::start() {
            pipeline_.workers.gl_version().c_str());
 }
 
-void CollisionNode::watch_clock() {
-  if (pipeline_.watch_clock()) touches_.end_all("clock stepped back");
+void CollisionNode::handle(SteadyTime now) {
+  pipeline_.apply_organ_messages(now);
+  touches_.end_histories(pipeline_.inbox.organs, core_.tools());
 }
 
-void CollisionNode::work() {
+std::optional<SteadyTime> CollisionNode::work() {
   pipeline_.steps.evaluate(core_.loop().heard_until());
   const auto report = pipeline_.steps.load().take_report();
   if (report) counters_.late.add("falls behind", *report);
   markers_.update(pipeline_.inbox.organs, pipeline_.steps.history());
-}
-
-void CollisionNode::reset() {
-  pipeline_.reset();
-  touches_.end_all("reset");
+  return pipeline_.steps.next_deadline();
 }
 
 void CollisionNode::parameters_changed() {
@@ -125,20 +119,13 @@ void CollisionNode::parameters_changed() {
   markers_.set_settings(parameters_.markers);
 }
 
-std::function<void()> CollisionNode::prepare_tools(std::vector<Tool>& tools,
-                                                   const KeptTools& kept) {
-  return
-      [this, kept, streams = pipeline_.inbox.motion.subscribe_for(tools, core_.node())]() mutable {
-        std::set<std::string> staying;
-        for (std::size_t tool = 0; tool < kept.size(); ++tool) {
-          if (kept[tool]) staying.insert(core_.tools()[tool].parameters.name);
-        }
-        touches_.forget_other_tools(staying, "tools changed");
-        pipeline_.steps.change_tools(kept);
-        markers_.set_tools(core_.tools());
-        swaps_.assign(core_.tools().size(), {});
-        pipeline_.inbox.motion.change_tools(streams, core_.tools());
-      };
+std::function<void()> CollisionNode::prepare_tools(std::vector<Tool>& tools, const KeptTools&) {
+  return [this, streams = pipeline_.inbox.motion.subscribe_for(tools, core_.node())]() mutable {
+    pipeline_.steps.follow_histories();
+    markers_.set_tools(core_.tools());
+    swaps_.assign(core_.tools().size(), {});
+    pipeline_.inbox.motion.change_tools(streams, core_.tools());
+  };
 }
 
 /// If the node broke down, publishes PICKER_FAILED for each organ and tool: subscribers must not
@@ -195,11 +182,7 @@ void CollisionNode::watch_ends(const ToolStep& step) {
 
 /// Counts an accepted shape. If the message brought no shape, publishes for each tool why.
 void CollisionNode::report(const OrganUpdate& update) {
-  const bool is_gone =
-      update.change == OrganChange::kRemoved || update.change == OrganChange::kOrgan;
-  if (is_gone || update.change == OrganChange::kSender) {
-    touches_.forget_organ(update.message.organ(), is_gone ? "organ removed" : "sender restarted");
-  }
+  touches_.end_histories(pipeline_.inbox.organs, core_.tools());
   if (update.status == ContactArray::OK) return counters_.meshes.count();
   publish_failure(update.message.organ(), update.message.header(), update.status, update.why_not);
 }

@@ -55,9 +55,9 @@ void warn_of_settings(const std::vector<Tool>& tools, const std::vector<std::str
 
 }  // namespace
 
-void MessageLoop::receive(OrganNode& node) {
+void MessageLoop::receive(OrganNode& node, std::optional<SteadyTime> deadline) {
   SteadyTime before = clock_.now();
-  bool called = call_one(node, wait_until(node.next_deadline(), before));
+  bool called = call_one(node, wait_until(deadline, before));
   const SteadyTime end = SteadyClock::now() + kLongestDrain;
   while (called && SteadyClock::now() < end) {
     before = clock_.now();
@@ -70,10 +70,13 @@ void MessageLoop::receive(OrganNode& node) {
 
 /// Calls one callback, and the node's own functions around it. Returns false if there was none.
 bool MessageLoop::call_one(OrganNode& node, ros::WallDuration wait) {
-  node.watch_clock();
+  const auto handle = [&] {
+    node.its_inbox().watch_clock();
+    node.handle(clock_.now());
+  };
+  handle();
   const bool called = queue_.callOne(wait) == ros::CallbackQueue::Called;
-  node.watch_clock();
-  node.handle(clock_.now());
+  handle();
   return called;
 }
 
@@ -128,17 +131,20 @@ NodeCore::NodeCore(const ros::NodeHandle& node, const ros::NodeHandle& private_n
           table_.change(changes);
           running_->parameters_changed();
         });
-      }) {}
+      }) {
+  number_histories(tools_, KeptTools(tools_.size()));
+}
 
 void NodeCore::run(OrganNode& node, const RunControl& control) {
   try {
     start(node);
     control.ready();
     try {
+      std::optional<SteadyTime> deadline;
       while (private_node_.ok() && !control.stop) {
-        loop_.receive(node);
+        loop_.receive(node, deadline);
         if (broken_) std::rethrow_exception(broken_);
-        node.work();
+        deadline = node.work();
       }
     } catch (const std::exception& fault) {
       say_last_words(fault);
@@ -166,7 +172,7 @@ void NodeCore::start(OrganNode& node) {
                                            }),
       advertise_checked<std_srvs::Empty>(private_node_, names::kReset,
                                          [&node](auto&, auto&) {
-                                           node.reset();
+                                           node.its_inbox().begin_history("reset");
                                            return true;
                                          }),
       advertise_checked<ListTools>(private_node_, names::kListTools, [this](auto&, auto& response) {
@@ -180,6 +186,13 @@ void NodeCore::start(OrganNode& node) {
 void NodeCore::end_threads() {
   loop_.end();
   for (QueueThread& thread : threads_) thread.stop();
+}
+
+/// A tool that is kept keeps the number of its history.
+void NodeCore::number_histories(std::vector<Tool>& tools, const KeptTools& kept) {
+  for (std::size_t tool = 0; tool < tools.size(); ++tool) {
+    tools[tool].history = kept[tool] ? tools_[*kept[tool]].history : ++tool_histories_;
+  }
 }
 
 /// Runs in the background thread, because robots' files may take seconds to load.
@@ -200,9 +213,9 @@ void NodeCore::reload(std_srvs::Trigger::Response& response) {
       for (const std::string& list : lists) changes.summary += "; " + list;
       if (!lists.empty()) running_->parameters_changed();
     });
+    number_histories(tools, changes.kept);
     const std::function<void()> take_over = running_->prepare_tools(tools, changes.kept);
     live_parameters_.publish();
-    running_->release_tools(changes.kept);
     in_node_thread([&] { exchange_tools(tools, parameters, misspelt, take_over); });
     response.success = true;
     response.message = plain_text(changes.summary, kLongestMessage);

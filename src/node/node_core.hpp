@@ -16,7 +16,7 @@
 #include "common/program/program.hpp"
 #include "common/threads/queues.hpp"
 #include "common/threads/realtime.hpp"
-#include "node/organs/organ_intake.hpp"
+#include "node/inbox.hpp"
 #include "node/parameters/node_parameters.hpp"
 #include "node/steps/step.hpp"
 #include "node/tools/tool.hpp"
@@ -27,34 +27,34 @@ namespace organ_collision {
 /// unless they say otherwise. It calls none of them before run(): by then, the node is complete.
 class OrganNode {
  public:
+  /// `inbox`: of the node. It is not used before run().
+  explicit OrganNode(Inbox& inbox) : inbox_(inbox) {}
   virtual ~OrganNode() = default;
+
+  Inbox& its_inbox() { return inbox_; }
 
   /// Called once, before all others: subscribes to topics, and advertises services.
   virtual void start() = 0;
-  /// Called before and after each callback.
-  virtual void watch_clock() = 0;
-  /// Called after each callback. `now`: see MessageLoop::now().
+  /// Called before and after each callback, when the inbox has looked at the clock. `now`: see
+  /// MessageLoop::now().
   virtual void handle(SteadyTime now) = 0;
-  /// Called after each batch of messages.
-  virtual void work() = 0;
-  /// When work() must be called even if no message comes, on the clock of the loop.
-  virtual std::optional<SteadyTime> next_deadline() = 0;
-
-  virtual void reset() = 0;
+  /// Called after each batch of messages. Returns when it must be called again even if no message
+  /// comes, on the clock of the loop; std::nullopt: never.
+  virtual std::optional<SteadyTime> work() = 0;
   /// Called after parameters have changed.
   virtual void parameters_changed() = 0;
   /// Called in the background thread: makes what takes long or waits for the ROS master, for a new
-  /// list of tools. Adds a fault to a tool that does not work. If it throws, the old tools stay.
-  /// Returns what takes over when NodeCore::tools() are the new tools; if that throws, the node
-  /// breaks down. What the function holds then is destroyed in the background thread.
+  /// list of tools, and then releases the tools that are not kept. Adds a fault to a tool that does
+  /// not work. If it throws, the old tools stay. Returns what takes over when NodeCore::tools() are
+  /// the new tools; if that throws, the node breaks down. What the function holds then is destroyed
+  /// in the background thread.
   virtual std::function<void()> prepare_tools(std::vector<Tool>& tools, const KeptTools& kept) = 0;
-  /// Called in the background thread, after prepare_tools() and before the tools that are not kept
-  /// are replaced.
-  virtual void release_tools(const KeptTools& kept) = 0;
-
   /// Called once, after all others: tells the subscribers that the node ends. `fault`: the
   /// exception because of which it ends, or null.
   virtual void end(const std::exception* fault) = 0;
+
+ private:
+  Inbox& inbox_;
 };
 
 /// The callback queue of a node. One thread calls its callbacks in batches. That thread owns all
@@ -65,10 +65,10 @@ class MessageLoop {
 
   ros::CallbackQueue& queue() { return queue_; }
 
-  /// Waits for the first callback until the node's next deadline, but at most 10 ms. Then calls all
-  /// callbacks that are there, for at most 2 ms, and the functions of the node around each of them.
-  /// Throws what the callbacks throw.
-  void receive(OrganNode& node);
+  /// Waits for the first callback until a deadline, but at most 10 ms. Then calls all callbacks
+  /// that are there, for at most 2 ms, and OrganNode::handle() around each of them. Throws what the
+  /// callbacks throw.
+  void receive(OrganNode& node, std::optional<SteadyTime> deadline);
   /// All messages that came before this time, on the clock of now(), have been handled, unless the
   /// node is more than 1 s behind its messages.
   SteadyTime heard_until() const { return heard_until_; }
@@ -128,6 +128,7 @@ class NodeCore {
  private:
   void start(OrganNode& node);
   void end_threads();
+  void number_histories(std::vector<Tool>& tools, const KeptTools& kept);
   void reload(std_srvs::Trigger::Response& response);
   void exchange_tools(std::vector<Tool>& tools, std::vector<ToolParameters>& parameters,
                       std::vector<std::string>& misspelt, const std::function<void()>& take_over);
@@ -144,7 +145,8 @@ class NodeCore {
   const ParameterTable& table_;
   Realtime realtime_;
   std::vector<Tool> tools_;
-  std::exception_ptr broken_;  ///< why the node cannot go on; null: it can
+  std::uint64_t tool_histories_ = 0;  ///< how many histories of tools have begun
+  std::exception_ptr broken_;         ///< why the node cannot go on; null: it can
   Diagnostics diagnostics_;
   LiveParameters live_parameters_;  ///< its callbacks run in the background thread
   OrganNode* running_ = nullptr;    ///< the node, while it runs

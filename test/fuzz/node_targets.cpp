@@ -115,8 +115,7 @@ class Node {
         go_to(input.byte());
         break;
       case 7:
-        inbox_.forget_history();
-        steps_.reset();
+        inbox_.begin_history("reset");
         break;
       default:
         if (auto pose = next_message<geometry_msgs::PoseStamped>(input)) {
@@ -151,7 +150,7 @@ class Node {
   }
   void go_to(std::uint32_t seconds) {
     ros::Time::setNow(ros::Time(seconds, 0));
-    if (inbox_.watch_clock()) steps_.start_anew();
+    inbox_.watch_clock();
   }
   static const std::vector<Tool>& tools() {
     static const std::vector<Tool> tools = make_tools();
@@ -287,10 +286,11 @@ class ProxyNode {
   }
 
   Hand& hand_;
-  OrganRegistry organs_{MeshLimits{100}};
+  AheadLimit ahead_;
+  OrganRegistry organs_{MeshLimits{100}, ahead_};
   TransformBuffer transforms_;
   FailureLog rejected_;
-  MotionTopics motion_{{hand_.tool.parameters}, transforms_, rejected_, [](std::size_t) {}};
+  MotionTopics motion_{{hand_.tool.parameters}, transforms_, rejected_, [](std::size_t) {}, ahead_};
   ToolPoses poses_{transforms_, {1.0, 1}};
   ProxyFrame frame_{""};
 };

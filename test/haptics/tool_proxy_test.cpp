@@ -434,7 +434,7 @@ TEST_F(ToolProxyTest, TheLagOfAFrameIsThatOfItsPoseAndNotOfAMeshThatWasSentLongA
 class RisingTissueTest : public ToolProxyTest {
  protected:
   void begin() {
-    organs_ = OrganRegistry({1000});
+    organs_ = OrganRegistry({1000}, ahead_);
     shapes_ = {};
   }
 
@@ -463,7 +463,8 @@ class RisingTissueTest : public ToolProxyTest {
   }
 
   static constexpr double kSpeed = 0.031;  // [m/s]
-  OrganRegistry organs_{MeshLimits{1000}};
+  AheadLimit ahead_;
+  OrganRegistry organs_{MeshLimits{1000}, ahead_};
   OrganInterpolation shapes_;
   TransformBuffer transforms_;
 };

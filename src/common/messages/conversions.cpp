@@ -39,15 +39,22 @@ ros::Time later(ros::Time time, double seconds) {
   return ros::Time().fromNSec(std::min(kLast, start + static_cast<std::uint64_t>(added)));
 }
 
-std::string ahead_fault(ros::Time stamp, ros::Time now, double max_ahead_sec) {
+void AheadLimit::look(ros::Time now) {
+  const ros::Time before = std::exchange(last_, now);
+  if (ros::Time::isSimTime() && now > before && !before.isZero()) {
+    step_sec_ = seconds_between(before, now);
+  }
+}
+
+std::string AheadLimit::fault(ros::Time stamp, ros::Time now) const {
   if (stamp.sec > kLatestStamp) {
     return concatenate("the stamp ", stamp, " is beyond what TF can take; at most ", kLatestStamp,
                        " s are allowed");
   }
   const double ahead_sec = stamp.toSec() - now.toSec();
-  if (now.isZero() || ahead_sec <= max_ahead_sec) return {};
+  if (now.isZero() || ahead_sec <= max_ahead_sec_ + step_sec_) return {};
   return concatenate("the stamp ", stamp, " is ", ahead_sec,
-                     " s ahead of this node's clock; at most ", max_ahead_sec,
+                     " s ahead of this node's clock; at most ", max_ahead_sec_,
                      " s are allowed (max_ahead_sec). The sender needs the same clock");
 }
 

@@ -55,10 +55,24 @@ inline constexpr double kMaxAheadDefault = 1.0;
 /// stamps, and throws if the sum has more than 32 bits.
 inline constexpr std::uint32_t kLatestStamp = 4'294'967'000;
 
-/// Why a stamp is refused: it is ahead of the clock by more than `max_ahead_sec`, or later than
-/// kLatestStamp. Empty if the stamp is accepted. Before simulated time begins, `now` is zero and no
-/// stamp is ahead.
-std::string ahead_fault(ros::Time stamp, ros::Time now, double max_ahead_sec);
+/// How far stamps may be ahead of the clock. Simulated time moves in steps, and its senders may be
+/// ahead of it by one more step.
+class AheadLimit {
+ public:
+  explicit AheadLimit(double max_ahead_sec = kMaxAheadDefault) : max_ahead_sec_(max_ahead_sec) {}
+
+  /// Looks at the clock. To be called before messages are taken, and more often than the clock
+  /// steps.
+  void look(ros::Time now);
+  /// Why a stamp is refused: it is too far ahead of the clock, or later than kLatestStamp. Empty if
+  /// the stamp is accepted. Before simulated time begins, `now` is zero and no stamp is ahead.
+  std::string fault(ros::Time stamp, ros::Time now) const;
+
+ private:
+  double max_ahead_sec_;
+  ros::Time last_ = {};    ///< the time at the last look
+  double step_sec_ = 0.0;  ///< the last step of simulated time; 0: time is not simulated
+};
 
 /// [ns] from one time to another. ros::Duration overflows for extreme stamps.
 inline std::int64_t nanoseconds_between(ros::Time from, ros::Time to) {

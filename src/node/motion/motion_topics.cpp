@@ -72,11 +72,8 @@ TransformStamped to_transform(const PoseStamped& pose, const std::string& frame)
 }  // namespace
 
 MotionTopics::MotionTopics(const std::vector<ToolParameters>& tools, TransformBuffer& transforms,
-                           FailureLog& rejected, Arrived arrived, double max_ahead_sec)
-    : transforms_(transforms),
-      rejected_(rejected),
-      arrived_(std::move(arrived)),
-      max_ahead_sec_(max_ahead_sec) {
+                           FailureLog& rejected, Arrived arrived, const AheadLimit& ahead)
+    : transforms_(transforms), rejected_(rejected), arrived_(std::move(arrived)), ahead_(ahead) {
   for (const ToolParameters& tool : tools) {
     streams_.push_back(std::make_shared<Stream>(Stream{streams_.size(), tool}));
   }
@@ -192,7 +189,7 @@ void MotionTopics::take_transforms(const tf2_msgs::TFMessage& message, const std
   for (const TransformStamped& transform : message.transforms) {
     const std::string& frame = transform.child_frame_id;
     const ros::Time stamp = transform.header.stamp;
-    std::string fault = resting ? "" : ahead_fault(stamp, now, max_ahead_sec_);
+    std::string fault = resting ? "" : ahead_.fault(stamp, now);
     try {
       if (fault.empty() && !transforms_.add(transform, authority, resting)) {
         const bool is_repeated = !resting && transforms_.has(frame, stamp);
@@ -284,7 +281,7 @@ std::string MotionTopics::fault_of(const PoseStamped& pose, const std::string& f
                        tolerance::kFarthest, " m");
   }
   const ros::Time now = ros::Time::now(), stamp = pose.header.stamp;
-  const std::string ahead = ahead_fault(stamp.isZero() ? now : stamp, now, max_ahead_sec_);
+  const std::string ahead = ahead_.fault(stamp.isZero() ? now : stamp, now);
   if (!ahead.empty()) return "is refused: " + ahead;
   if (is_unit(q)) return "";
   return concatenate("has the orientation (", q.x, ", ", q.y, ", ", q.z, ", ", q.w,

@@ -28,10 +28,9 @@ class MotionTopics {
   /// Called with a tool's index after each pose of its tip from a topic.
   using Arrived = std::function<void(std::size_t tool)>;
 
-  /// `transforms` and `rejected` must outlive this object. Transforms and poses whose stamps are
-  /// more than `max_ahead_sec` ahead of the clock are refused.
+  /// The references must outlive this object. `ahead` refuses transforms and poses by their stamps.
   MotionTopics(const std::vector<ToolParameters>& tools, TransformBuffer& transforms,
-               FailureLog& rejected, Arrived arrived, double max_ahead_sec = kMaxAheadDefault);
+               FailureLog& rejected, Arrived arrived, const AheadLimit& ahead);
   MotionTopics(const MotionTopics&) = delete;  ///< The subscriptions refer to this.
 
   /// Subscribes to TF and to the topics that the tools name; `node` resolves their names.
@@ -83,7 +82,7 @@ class MotionTopics {
   TransformBuffer& transforms_;
   FailureLog& rejected_;
   Arrived arrived_;
-  double max_ahead_sec_;
+  const AheadLimit& ahead_;
   Streams streams_;
   std::vector<ros::Subscriber> tf_;
   ros::WallTimer look_;  ///< for silent topics

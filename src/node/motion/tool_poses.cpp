@@ -139,8 +139,6 @@ std::vector<ToolPoses::SampleTime> ToolPoses::sample_times(const Tool& tool,
 
 bool ToolPoses::has_pose(const Tool& tool, const std::string& organ_frame, ros::Time time) const {
   const TransformBuffer::Frames frames = frames_of(tool, true);
-  const std::optional<ros::Time> until = buffer_.believed_until(organ_frame, frames);
-  if (until && time > *until) return false;
   try {
     return std::all_of(frames.begin(), frames.end(), [&](const std::string& frame) {
       return frame == organ_frame || buffer_.canTransform(organ_frame, frame, time);
@@ -205,10 +203,11 @@ bool ToolPoses::is_nearly_forgotten(const Tool& tool, const std::string& organ_f
              kMostRead / 2;
 }
 
-bool ToolPoses::is_disproved(const Tool& tool, const std::string& organ_frame,
-                             ros::Time stamp) const {
-  const auto until = buffer_.believed_until(organ_frame, swept_frames(tool));
-  return until && stamp.toSec() > until->toSec() + kClockTolerance;
+std::string ToolPoses::missed(const Tool& tool, const std::string& organ_frame,
+                              std::size_t seen) const {
+  const std::string frame = buffer_.late_frame(organ_frame, swept_frames(tool), seen);
+  if (frame.empty()) return "";
+  return "a transform of frame '" + frame + "' came behind a stamp that was already answered";
 }
 
 std::string ToolPoses::why_not(const Tool& tool, const std::string& organ_frame,
@@ -229,11 +228,8 @@ std::string ToolPoses::why_not(const Tool& tool, const std::string& organ_frame,
   const auto of_organ = buffer_.oldest_transform(organ_frame, {frame});
   if (!oldest || oldest->frame != tip) return why;
   if (of_organ && of_organ->received < oldest->received) return why;
-  const auto rate = buffer_.rate(tip);
-  return concatenate(
-      why, ": poses on ", topic,
-      rate ? concatenate(" came at ", std::round(10.0 * *rate) / 10.0, " Hz") : " come seldom",
-      "; see 'Send poses also while nothing moves' in doc/tools.md");
+  return why + ": poses on " + topic +
+         " come seldom; see 'Send poses also while nothing moves' in doc/tools.md";
 }
 
 SampledPath ToolPoses::path(const Tool& tool, const std::string& organ_frame,

@@ -64,13 +64,15 @@ class ToolPoses {
   /// Half of the time for which TF keeps transforms. If a step went on for longer, TF would soon
   /// forget where the tool was at its beginning.
   ros::Duration longest_step() const { return buffer_.getCacheLength() * 0.5; }
-  /// Whether a step that ended at `stamp` used transforms that are not believed any more
-  /// (TransformBuffer::believed_until).
-  bool is_disproved(const Tool& tool, const std::string& organ_frame, ros::Time stamp) const;
 
   /// Notes that a step of the tool up to `time` was answered. Transforms that come later but belong
   /// to that step are counted as late.
   void set_answered(const Tool& tool, const std::string& organ_frame, ros::Time time);
+  /// How many transforms came late, of all tools.
+  std::size_t late() const { return buffer_.late(); }
+  /// A sentence if a transform of the tool came late after the first `seen` of them, so that a step
+  /// that was answered did not sweep the tool through it; or empty.
+  std::string missed(const Tool& tool, const std::string& organ_frame, std::size_t seen) const;
 
  private:
   /// The most stamps that are read for a step.

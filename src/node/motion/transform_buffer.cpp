@@ -78,7 +78,7 @@ bool TransformBuffer::add(const geometry_msgs::TransformStamped& transform,
   if (!resting && known) {
     // tf2 would log each of them. A repeated transform is not late.
     if (has(name, stamp)) return false;
-    if (stamp <= known->answered) ++late_;
+    if (stamp <= known->answered) frames_[name].late = ++late_;
     if (is_too_old(stamp, known->stamps, getCacheLength())) return false;
   }
   if (!setTransform(transform, authority, resting)) return false;
@@ -87,7 +87,6 @@ bool TransformBuffer::add(const geometry_msgs::TransformStamped& transform,
   frame.name = name;
   parent.name = parent_name;
   if (!resting) {
-    judge(frame, stamp);
     note(frame, stamp);
     latest_ = std::max(latest_, stamp);
   }
@@ -98,25 +97,9 @@ bool TransformBuffer::add(const geometry_msgs::TransformStamped& transform,
   return true;
 }
 
-/// Finds out whether a new stamp of the frame disproves the latest one (believed_until()), or
-/// reaches the stamp that was disproved before.
-void TransformBuffer::judge(Frame& frame, ros::Time stamp) {
-  const ros::Time latest = frame.stamps.empty() ? ros::Time() : frame.stamps.back();
-  const bool was_disproved = !frame.disproved.isZero();
-  if (latest > ros::Time::now() && stamp.toSec() < latest.toSec() - kClockTolerance) {
-    frame.disproved = latest;
-    has_stepped_back_ = true;
-  } else if (stamp >= frame.disproved) {
-    frame.disproved = ros::Time();
-  }
-  disproved_ += static_cast<std::size_t>(!frame.disproved.isZero());
-  disproved_ -= static_cast<std::size_t>(was_disproved);
-}
-
 /// Records a stamp. A stamp is forgotten when TF forgets its transform, or when there are too many.
 void TransformBuffer::note(Frame& frame, ros::Time stamp) {
   std::deque<ros::Time>& stamps = frame.stamps;
-  frame.heard = stamp;
   const ros::Time now = ros::Time::now();
   frame.received = now.isZero() ? stamp : now;  // Before the first /clock, only the stamp tells.
   if (stamps.empty() || stamp > stamps.back()) frame.advanced = frame.received;
@@ -139,19 +122,6 @@ void TransformBuffer::clear() {
   BufferCore::clear();
   for (auto& [name, frame] : frames_) frame = {name, std::move(frame.parents)};
   latest_ = ros::Time();
-  disproved_ = 0;
-  has_stepped_back_ = false;
-}
-
-std::optional<ros::Time> TransformBuffer::believed_until(const std::string& target,
-                                                         const Frames& sources) const {
-  if (disproved_ == 0) return std::nullopt;
-  std::optional<ros::Time> until;
-  for (const Frame* const frame : chain(target, sources)) {
-    if (frame->disproved.isZero()) continue;
-    until = until ? std::min(*until, frame->heard) : frame->heard;
-  }
-  return until;
 }
 
 bool TransformBuffer::goes_on(const std::string& target, const Frames& sources, ros::Time time,
@@ -169,19 +139,6 @@ bool TransformBuffer::goes_on(const std::string& target, const Frames& sources, 
   });
 }
 
-std::optional<double> TransformBuffer::rate(const std::string& frame) const {
-  const Frame* const known = find(frame);
-  if (!known || known->stamps.size() < 2) return std::nullopt;
-  const double latest = known->stamps.back().toSec();
-  const auto is_before = [latest](ros::Time stamp, double ago) {
-    return stamp.toSec() < latest - ago;
-  };
-  const auto first =
-      std::min(std::lower_bound(known->stamps.begin(), known->stamps.end(), 1.0, is_before),
-               known->stamps.end() - 2);
-  return static_cast<double>(known->stamps.end() - first - 1) / (latest - first->toSec());
-}
-
 bool TransformBuffer::has_heard(const std::string& frame) const {
   const Frame* const known = find(frame);
   return known && !known->stamps.empty();
@@ -189,7 +146,7 @@ bool TransformBuffer::has_heard(const std::string& frame) const {
 
 std::string TransformBuffer::carrier(const std::string& frame) const {
   for (const Frame* const above : upward(frame, 1)) {
-    if (!above->heard.isZero()) return above->name;
+    if (!above->stamps.empty()) return above->name;
   }
   return "";
 }
@@ -213,7 +170,7 @@ FrameJoints TransformBuffer::joints(const std::string& target, const std::string
     joints.poses.push_back(pose.found->value);
     last = next;
   };
-  const auto moves = [](const Frame* above) { return !above->heard.isZero(); };
+  const auto moves = [](const Frame* above) { return !above->stamps.empty(); };
   // The inverse of a joint turns first, and then its origin moves linearly.
   const auto turn_first = [&] {
     Eigen::Isometry3d& inverse = joints.poses.back();
@@ -267,6 +224,15 @@ void TransformBuffer::set_answered(const std::string& target, const Frames& sour
   for (const Frame* const frame : chain(target, sources)) {
     frames_.at(frame->name).answered = std::max(frame->answered, stamp);
   }
+}
+
+std::string TransformBuffer::late_frame(const std::string& target, const Frames& sources,
+                                        std::size_t seen) const {
+  if (seen == late_) return "";
+  const Nodes frames = chain(target, sources);
+  const auto late = std::find_if(frames.begin(), frames.end(),
+                                 [seen](const Frame* frame) { return frame->late > seen; });
+  return late == frames.end() ? "" : (*late)->name;
 }
 
 std::optional<LastTransform> TransformBuffer::oldest_transform(const std::string& frame,
@@ -339,13 +305,8 @@ TransformBuffer::Nodes TransformBuffer::upward_at(const std::string& frame, ros:
 Lookup<Eigen::Isometry3d> look_up(const TransformBuffer& buffer, const std::string& target,
                                   const std::string& source, ros::Time time) {
   if (target == source) return {{{Eigen::Isometry3d::Identity(), time}}, ""};
-  const std::optional<ros::Time> until = buffer.believed_until(target, {source});
-  if (until && time > *until) return late(target, source, *until, time);
   try {
-    geometry_msgs::TransformStamped found = buffer.lookupTransform(target, source, time);
-    if (until && found.header.stamp > *until) {
-      found = buffer.lookupTransform(target, source, *until);
-    }
+    const geometry_msgs::TransformStamped found = buffer.lookupTransform(target, source, time);
     const Eigen::Isometry3d T_target_source = to_eigen(found.transform);
     if (!T_target_source.matrix().allFinite()) {
       return {std::nullopt, "transform from " + source + " to " + target + " is not finite"};

@@ -51,19 +51,8 @@ class TransformBuffer : public tf2::BufferCore {
   bool has(const std::string& frame, ros::Time stamp) const;
   /// Forgets all transforms but the static ones, because their senders do not repeat them.
   void clear();
-  /// Whether the stamps of a frame have stepped back since the last call, while the frame's latest
-  /// stamp was ahead of the clock.
-  bool has_stepped_back() { return std::exchange(has_stepped_back_, false); }
   /// The largest stamp of a transform that is not static; zero if there is none.
   ros::Time latest() const { return latest_; }
-  /// The time up to which the transforms between `target` and `sources` are believed; std::nullopt:
-  /// all are believed. A stamp ahead of the clock is disproved when its frame later gets a stamp
-  /// that is earlier by more than kClockTolerance. Until the frame's stamps reach the disproved
-  /// stamp, its transforms are believed only up to the stamp that came last.
-  std::optional<ros::Time> believed_until(const std::string& target, const Frames& sources) const;
-  /// [Hz] How often transforms of this frame came within the last second of its stamps;
-  /// std::nullopt: fewer than two came.
-  std::optional<double> rate(const std::string& frame) const;
   /// Whether the record has a transform of this frame. Static transforms are not recorded.
   bool has_heard(const std::string& frame) const;
   /// The frame that carries `frame`: itself, or the nearest frame above it that is not on static
@@ -99,6 +88,9 @@ class TransformBuffer : public tf2::BufferCore {
   void set_answered(const std::string& target, const Frames& sources, ros::Time stamp);
   /// How many transforms came late, after poses at or past their stamp had already been used.
   std::size_t late() const { return late_; }
+  /// A frame between `target` and `sources` of which a transform came late, after the first `seen`
+  /// of all that came late. Empty if there is none.
+  std::string late_frame(const std::string& target, const Frames& sources, std::size_t seen) const;
 
   /// The frame in the chain from `frame` upwards whose last transform came first. Frames with only
   /// static transforms are left out. The chain ends below the first frame that also carries all of
@@ -114,16 +106,14 @@ class TransformBuffer : public tf2::BufferCore {
     std::string name = {};
     Nodes parents = {};                 ///< recent parents, the latest at the end
     std::deque<ros::Time> stamps = {};  ///< stamps of recent transforms, in rising order
-    ros::Time heard = {};               ///< the stamp that came last
-    ros::Time received = {};            ///< when it came, by the node's own clock
+    ros::Time received = {};            ///< when the last one came, by the node's own clock
     ros::Time advanced = {};            ///< when the largest stamp came, by the node's own clock
     ros::Time forgotten = {};           ///< the latest stamp that was forgotten
-    ros::Time disproved = {};           ///< a stamp that was disproved (see believed_until())
     ros::Time answered = {};            ///< poses were used up to this stamp
+    std::size_t late = 0;               ///< the number of its last late transform among all
   };
 
   const Frame* find(const std::string& frame) const;
-  void judge(Frame& frame, ros::Time stamp);
   void note(Frame& frame, ros::Time stamp);
   Nodes chain(const std::string& target, const Frames& sources) const;
   Nodes upward(const std::string& frame, std::size_t most) const;
@@ -132,8 +122,6 @@ class TransformBuffer : public tf2::BufferCore {
   std::map<std::string, Frame> frames_;          ///< by name; the addresses of frames do not change
   std::map<std::string, std::string> refusals_;  ///< why the last pose was refused, by frame
   ros::Time latest_;                             ///< the largest stamp of all frames
-  std::size_t disproved_ = 0;                    ///< how many frames have a disproved stamp
-  bool has_stepped_back_ = false;
   std::size_t late_ = 0;
 };
 
@@ -155,8 +143,7 @@ struct Lookup {
 };
 
 /// The transform T_target_source at a time. Time zero means the latest time at which all transforms
-/// are known. Transforms that are not believed any more (TransformBuffer::believed_until) count as
-/// not yet known. The frame names must have no leading slash.
+/// are known. The frame names must have no leading slash.
 Lookup<Eigen::Isometry3d> look_up(const TransformBuffer& buffer, const std::string& target,
                                   const std::string& source, ros::Time time);
 

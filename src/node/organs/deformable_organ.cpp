@@ -49,14 +49,14 @@ void DeformableOrgan::move(SharedVertices vertices, ros::Time stamp, ros::Time r
       unused != shapes_.end() ? *unused
                               : shapes_.emplace_back(std::make_shared<TriangleMesh>(*latest_.mesh));
   shape->move_vertices(std::move(vertices));
-  OrganShape next{shape, stamp, received, latest_.surface};
+  OrganShape next{shape, stamp, received, latest_.surface, history_.number};
   const double arrival_sec = seconds_between(latest_.received, received);
   const bool have_stamps = !stamp.isZero() && !latest_.stamp.isZero();
   if (have_stamps || arrival_sec > kLeastArrival) {
     next.motion_sec = have_stamps ? seconds_between(latest_.stamp, stamp) : arrival_sec;
   }
   next.period_sec = std::max(next.motion_sec, arrival_sec);
-  if (!std::exchange(begins_anew_, false)) next.before = latest_.mesh;
+  if (latest_.history == history_.number) next.before = latest_.mesh;
   latest_ = std::move(next);
 }
 
@@ -64,11 +64,10 @@ void DeformableOrgan::replace(TriangleMesh mesh, ros::Time stamp, ros::Time rece
   const auto shape = std::make_shared<TriangleMesh>(std::move(mesh));
   auto surface = std::make_shared<OrganSurface>(*shape);
   shapes_ = {shape};  // Last, as it may fail for lack of memory.
-  begins_anew_ = false;
-  latest_ = {shape, stamp, received, std::move(surface)};
+  latest_ = {shape, stamp, received, std::move(surface), history_.number};
 }
 
-void DeformableOrgan::receive_anew(ros::Time now) {
+void DeformableOrgan::limit_received(ros::Time now) {
   const bool came_before_time = latest_.received.isZero();
   latest_.received = came_before_time ? now : std::min(latest_.received, now);
 }

@@ -62,14 +62,23 @@ class OrganSurface {
   std::shared_future<Found> found_ = promise_.get_future().share();
 };
 
+/// What is remembered of an organ or a tool counts only as long as both numbers of it stay: that of
+/// its history, and the topology of an organ's triangles. With new triangles, the next step is
+/// static for the organ. With another history, everything begins anew.
+struct History {
+  std::uint64_t number = 0;  ///< of the present history; each history has another one
+  std::string why = {};      ///< why it began, as TouchEvent.reason; empty: it is the first one
+};
+
 /// An organ's surface at one time. Its users share it, and it does not change while they use it.
 struct OrganShape {
   std::shared_ptr<const TriangleMesh> mesh;  ///< null: no shape
   ros::Time stamp;                           ///< the stamp of the message; zero: it has none
   ros::Time received;                        ///< when the message was applied, by the node's clock
   std::shared_ptr<OrganSurface> surface = {};  ///< what is known of the triangles; null: no shape
-  /// The shape before, with the same triangles. Null if this one is the first with its triangles,
-  /// and after forget_before().
+  std::uint64_t history = 0;                   ///< the number of the history in which it came
+  /// The shape before, with the same triangles. Null if this one is the first with its triangles or
+  /// of its history.
   std::shared_ptr<const TriangleMesh> before = {};
   /// [s] from `before` to this shape, by their stamps. If one of them has no stamp: by their
   /// arrival
@@ -83,7 +92,6 @@ struct OrganShape {
     const bool moves = motion_sec > 0.0 && goes_on(period_sec, received, now);
     return moves ? before : nullptr;
   }
-  void forget_before() { before.reset(); }
 
   /// How the mesh's faces join. Null until OrganSurface::find() is done.
   const SurfaceTopology* topology() const {
@@ -117,34 +125,24 @@ class DeformableOrgan {
   /// Sets a new mesh with other triangles.
   void replace(TriangleMesh mesh, ros::Time stamp, ros::Time received);
 
-  /// Also forgets the previous shape, which was in another frame.
-  void set_frame(std::string frame) {
-    frame_ = std::move(frame);
-    latest_.forget_before();
+  void set_frame(std::string frame) { frame_ = std::move(frame); }
+  const History& history() const { return history_; }
+  /// Begins another history. `with_latest`: the latest shape is the first one that belongs to it;
+  /// otherwise, the next one will be.
+  void begin(History history, bool with_latest) {
+    history_ = std::move(history);
+    latest_.before.reset();
+    if (with_latest) latest_.history = history_.number;
   }
-  /// The latest shape and the next one have no shape before.
-  void forget_previous() {
-    latest_.forget_before();
-    begins_anew_ = true;
-  }
-  /// To be called when the latest shape has nothing to do with the shapes before, because the
-  /// organ's sender has restarted.
-  void begin_history() {
-    latest_.forget_before();
-    ++histories_;
-  }
-  /// How often begin_history() was called.
-  std::uint32_t histories() const { return histories_; }
-  /// To be called when the clock has jumped back to `now`, or has begun. If the latest shape was
-  /// received later, or before the clock began, that shape counts as received at `now`.
-  void receive_anew(ros::Time now);
+  /// If the latest shape was received later than `now`, or before the clock began, it counts as
+  /// received at `now`.
+  void limit_received(ros::Time now);
 
  private:
   std::string name_;
   std::string frame_;
   OrganShape latest_;
-  bool begins_anew_ = false;  ///< the next shape cannot be compared with the latest one
-  std::uint32_t histories_ = 0;
+  History history_;
   std::vector<std::shared_ptr<TriangleMesh>> shapes_;  ///< all with the present triangles
 };
 

@@ -103,7 +103,9 @@ OrganChange OrganRegistry::set_shape(const OrganMeshConstPtr& pointer, const Con
   const ros::Time stamp = message.header.stamp;
   const auto known = organs_.find(message.organ);
   if (known == organs_.end()) {
-    organs_.emplace(message.organ, DeformableOrgan(message.organ, frame, built(), stamp, now));
+    DeformableOrgan organ(message.organ, frame, built(), stamp, now);
+    organ.begin(next_history(""), true);
+    organs_.emplace(message.organ, std::move(organ));
     return OrganChange::kShape;
   }
   DeformableOrgan& organ = known->second;
@@ -119,9 +121,11 @@ OrganChange OrganRegistry::set_shape(const OrganMeshConstPtr& pointer, const Con
                std::to_string(message.topology) +
                "; for new triangles raise `topology`, or call the service reset first");
   }
-  if (frame == organ.frame()) return change;
+  if (frame != organ.frame() && change == OrganChange::kShape) change = OrganChange::kFrame;
   organ.set_frame(frame);
-  return change == OrganChange::kShape ? OrganChange::kFrame : change;
+  if (change == OrganChange::kFrame) organ.begin(next_history("frame changed"), true);
+  if (change == OrganChange::kOrgan) organ.begin(next_history("organ removed"), true);
+  return change;
 }
 
 OrganChange OrganRegistry::apply(const OrganVerticesConstPtr& pointer, ros::Time now,
@@ -166,7 +170,7 @@ bool OrganRegistry::note_sender(DeformableOrgan& organ, Senders::Stream stream,
                       stream == Senders::kMeshes ? names::kOrganMesh : names::kOrganVertices,
                       change.other.c_str(), caller_of(connection).c_str());
   }
-  if (change.has_restarted) organ.begin_history();
+  if (change.has_restarted) organ.begin(next_history("sender restarted"), true);
   return change.has_restarted;
 }
 
@@ -192,17 +196,16 @@ std::string OrganRegistry::last_refusal(const std::string& organ) const {
   return refusal == refusals_.end() ? "" : refusal->second;
 }
 
-void OrganRegistry::forget_history() {
-  for (auto& [name, organ] : organs_) organ.forget_previous();
+void OrganRegistry::begin_histories(const std::string& why, ros::Time now) {
+  for (auto& [name, organ] : organs_) {
+    organ.begin(next_history(why), false);
+    organ.limit_received(now);
+  }
   connections_.clear();
 }
 
-void OrganRegistry::receive_anew(ros::Time now) {
-  for (auto& [name, organ] : organs_) organ.receive_anew(now);
-}
-
 void OrganRegistry::check_stamp(ros::Time stamp, ros::Time now, const std::string& named) const {
-  const std::string ahead = ahead_fault(stamp, now, max_ahead_sec_);
+  const std::string ahead = ahead_->fault(stamp, now);
   if (!ahead.empty()) refuse("stamp ahead", named + ": " + ahead);
 }
 

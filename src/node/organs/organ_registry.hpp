@@ -32,9 +32,9 @@ bool is_removal(const OrganMesh& mesh);
 /// All known organs by name. A message that is refused changes no organ.
 class OrganRegistry {
  public:
-  /// Refuses meshes above `limits`, and stamps more than `max_ahead_sec` ahead of the clock.
-  explicit OrganRegistry(const MeshLimits& limits, double max_ahead_sec = kMaxAheadDefault)
-      : limits_(limits), max_ahead_sec_(max_ahead_sec) {}
+  /// Refuses meshes above `limits`, and stamps that `ahead` refuses, which must outlive this.
+  OrganRegistry(const MeshLimits& limits, const AheadLimit& ahead)
+      : limits_(limits), ahead_(&ahead) {}
 
   using Build = std::function<TriangleMesh()>;
 
@@ -67,23 +67,24 @@ class OrganRegistry {
   /// Why the organ's last mesh was refused. Empty if the mesh was accepted, or if none came.
   std::string last_refusal(const std::string& organ) const;
 
-  /// To be called when the clock has jumped back to `now`. Shapes that were received later count as
-  /// received at `now`, so that they can become stale.
-  void receive_anew(ros::Time now);
-  /// Each organ keeps only its latest shape. All connections count as new, so that the next mesh of
-  /// a name may be another organ.
-  void forget_history();
+  /// Another history of each organ begins at `now`. Each keeps only its latest shape. Shapes that
+  /// were received later count as received now, so that they can become stale. All connections
+  /// count as new, so that the next mesh of a name may be another organ.
+  void begin_histories(const std::string& why, ros::Time now);
 
  private:
   OrganChange set_shape(const OrganMeshConstPtr& message, const Connection& connection,
                         const std::string& frame, ros::Time now, const Build& built);
   bool note_sender(DeformableOrgan& organ, Senders::Stream stream, const Connection& connection,
                    ros::Time now);
+  /// A number that no history has had.
+  History next_history(const std::string& why) { return {++histories_, why}; }
   void check_stamp(ros::Time stamp, ros::Time now, const std::string& named) const;
 
   MeshLimits limits_;
-  double max_ahead_sec_;
+  const AheadLimit* ahead_;
   std::map<std::string, DeformableOrgan> organs_;
+  std::uint64_t histories_ = 0;  ///< how many histories of organs have begun
   std::map<std::string, std::set<Connection>> connections_;  ///< each organ's mesh connections
   std::map<std::string, Senders> senders_;                   ///< by organ
   /// For each organ, why its last mesh was refused; empty if the organ was removed. An accepted

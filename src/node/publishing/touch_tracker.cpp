@@ -121,7 +121,11 @@ std::vector<std::uint32_t> faces_of(const std::vector<JawContact>& contacts) {
 void TouchTracker::follow(const ToolStep& step, Time now, double hold_sec) {
   const ContactArray& answer = *step.answer;
   if (answer.status != ContactArray::OK) return follow_failure(answer, now);
-  Pair& pair = pairs_[{answer.organ, answer.tool}];
+  const Question& question = step.question;
+  Pair& pair = pairs_
+                   .try_emplace({answer.organ, answer.tool},
+                                Pair{question.organ_history, question.tool->history})
+                   .first->second;
   pair.failing.reset();
   pair.last = answer.header.stamp;
   if (!step.question.tool->parameters.jaws[0].empty()) follow_jaws(step, hold_sec, pair);
@@ -235,26 +239,24 @@ void TouchTracker::end_all(const std::string& reason) {
   for (auto& [key, pair] : pairs_) end_for(reason, pair);
 }
 
-void TouchTracker::forget_organ(const std::string& organ, const std::string& reason) {
-  forget([&](const OrganAndTool& pair) { return pair.first == organ; }, reason);
-}
-
-void TouchTracker::forget_other_tools(const std::set<std::string>& tools,
-                                      const std::string& reason) {
-  forget([&](const OrganAndTool& pair) { return tools.count(pair.second) == 0; }, reason);
-}
-
-/// Ends the touches of those pairs that `is_gone`, and forgets the pairs.
-template <typename IsGone>
-void TouchTracker::forget(const IsGone& is_gone, const std::string& reason) {
-  for (auto at = pairs_.begin(); at != pairs_.end();) {
-    auto& [key, pair] = *at;
-    if (!is_gone(key)) {
-      ++at;
-      continue;
+void TouchTracker::end_histories(const OrganRegistry& organs, const std::vector<Tool>& tools) {
+  const auto why_gone = [&](const OrganAndTool& names, const Pair& pair) -> std::string {
+    const auto organ = organs.organs().find(names.first);
+    if (organ == organs.organs().end()) return "organ removed";
+    const History& history = organ->second.history();
+    // A first history that is another one than the touch's is that of a new organ of this name.
+    if (history.number != pair.organ_history) {
+      return history.why.empty() ? "organ removed" : history.why;
     }
-    end_for(reason, pair);
-    at = pairs_.erase(at);
+    const bool has_tool = std::any_of(tools.begin(), tools.end(), [&](const Tool& tool) {
+      return tool.parameters.name == names.second && tool.history == pair.tool_history;
+    });
+    return has_tool ? "" : "tools changed";
+  };
+  for (auto at = pairs_.begin(); at != pairs_.end();) {
+    const std::string why = why_gone(at->first, at->second);
+    if (!why.empty()) end_for(why, at->second);
+    at = why.empty() ? std::next(at) : pairs_.erase(at);
   }
 }
 

@@ -9,12 +9,12 @@
 #include <functional>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <unordered_set>
 #include <utility>
 #include <vector>
 
+#include "node/organs/organ_registry.hpp"
 #include "node/steps/step.hpp"
 #include "query/grasp.hpp"
 
@@ -54,34 +54,33 @@ class TouchTracker {
   void follow_failure(const ContactArray& answer, Time now);
   /// Ends the touches and grasps of all tools and organs, with the stamp of their last answer.
   void end_all(const std::string& reason);
-  // These end touches, too, and forget the pairs of organ and tool.
-  void forget_organ(const std::string& organ, const std::string& reason);
-  /// `tools`: the names of those that are not forgotten.
-  void forget_other_tools(const std::set<std::string>& tools, const std::string& reason);
+  /// Ends the touches and grasps of organs and tools that are gone, or that have begun another
+  /// history, and forgets these pairs.
+  void end_histories(const OrganRegistry& organs, const std::vector<Tool>& tools);
 
  private:
   /// What is known of a pair of organ and tool.
   struct Pair {
+    std::uint64_t organ_history, tool_history;
     std::uint32_t count = 0;  ///< of touches that have begun
     bool is_touched = false;
-    ros::Time began, last;  ///< when the touch began; the stamp of the last answer that was OK
+    ros::Time began = {},
+              last = {};  ///< when the touch began; the stamp of the last answer that was OK
     std::optional<Time> failing = {};  ///< when the first failed answer since then was given
-    TouchEvent place;                  ///< the place that was touched last
+    TouchEvent place = {};             ///< the place that was touched last
     double deepest = 0.0;              ///< [m]
     std::uint32_t topology = 0;
-    std::unordered_set<std::uint32_t> faces;  ///< touched faces of the present triangles
-    std::size_t earlier_faces = 0;            ///< number of touched faces of earlier triangles
+    std::unordered_set<std::uint32_t> faces = {};  ///< touched faces of the present triangles
+    std::size_t earlier_faces = 0;                 ///< number of touched faces of earlier triangles
 
     std::vector<FaceSide> sides = {};  ///< of the touched faces of an open organ, sorted
     GraspMemory jaws = {};
-    std::uint32_t grasps = 0;    ///< number of grasps that have begun
-    ros::Time grasped;           ///< when the grasp began
-    std::optional<Grasp> grasp;  ///< as in the last answer in which a pair opposed; none: no grasp
+    std::uint32_t grasps = 0;  ///< number of grasps that have begun
+    ros::Time grasped = {};    ///< when the grasp began
+    std::optional<Grasp> grasp =
+        {};  ///< as in the last answer in which a pair opposed; none: no grasp
   };
 
-  template <typename IsGone>
-  void forget(const IsGone& is_gone, const std::string& reason);
-  void fail(Pair& pair, Time now);
   void begin(const ContactArray& answer, Pair& pair);
   void end(Pair& pair, ros::Time stamp, const std::string& reason);
   void end_for(const std::string& reason, Pair& pair);

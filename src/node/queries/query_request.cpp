@@ -208,8 +208,7 @@ void QueryQuestion::find_motion(const NodeState& node, std::size_t tool_index) {
 
   const StepHistory& history = node.pipeline.steps.history();
   const auto pair = history.find({organ, tool_index});
-  const bool has_last = pair != history.end() && pair->second.last &&
-                        !poses.is_disproved(*tool, frame, pair->second.last->stamp);
+  const bool has_last = pair != history.end() && pair->second.last;
   std::optional<Timed<ToolPose>> from;
   ros::Time begin = end;
   if (has_last && !is_static_mode(asked.mode)) {
@@ -227,6 +226,9 @@ void QueryQuestion::find_motion(const NodeState& node, std::size_t tool_index) {
     if (!organ_rests) before = has_same_faces(last, *shape.mesh) ? last.mesh : nullptr;
   }
   follow(poses, from, {pose.found->value, end}, begin, ros::Time::now());
+  if (from && sampled.unknown.empty()) {
+    sampled.unknown = poses.missed(*tool, frame, pair->second.last->late);
+  }
 }
 
 void check_lists(const QueryCollisionBatch::Request& batch, const Tool* tool) {

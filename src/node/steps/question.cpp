@@ -8,6 +8,7 @@ namespace organ_collision {
 void Question::set_organ(const DeformableOrgan& of_node, const OrganShape& of_step) {
   organ = of_node.name();
   frame = of_node.frame();
+  organ_history = of_node.history().number;
   shape = of_step;
 }
 

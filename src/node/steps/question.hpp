@@ -3,6 +3,7 @@
 #include <organ_collision/ContactArray.h>
 
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,6 +25,7 @@ struct Question {
   std::string frame;     ///< that of the organ; of a query, first that of the request
   ros::Time start, end;  ///< of the step
   QueryOptions asked;
+  std::uint64_t organ_history = 0;  ///< History::number of the organ
 
   std::shared_ptr<const Tool> tool;            ///< null: the motion is that of a shaft of its own
   OrganShape shape;                            ///< the organ at the end of the step

@@ -57,6 +57,7 @@ struct LastStep {
   SteadyTime taken = {};  ///< when the step was evaluated
   ContactArrayConstPtr answer = nullptr;
   ros::Time begin = {};  ///< the stamp of the first step of this history
+  std::size_t late = 0;  ///< ToolPoses::late() when the step was planned
 };
 
 /// Whether the organ still has the triangles of the last step.
@@ -72,21 +73,22 @@ struct WaitingShape {
 
 /// The state of one pair of organ and tool.
 struct OrganToolPair {
-  std::optional<LastStep> last;
+  std::uint64_t history = 0;  ///< History::number of the organ that all this belongs to
+  std::optional<LastStep> last = {};
   /// The organ's shape against which ticks and poses are evaluated: that of the last step, whether
   /// it succeeded or failed. Before the first step, it may be the organ's latest shape.
-  OrganShape current;
+  OrganShape current = {};
   /// The answer to the last step, whether the step succeeded or failed. Null if there is none.
-  ContactArrayConstPtr answer;
+  ContactArrayConstPtr answer = {};
   /// The first shape waits for its transforms. Behind it is the newest shape, or, in a replay, all
   /// newer shapes. A newer shape never replaces the first one: otherwise no shape would ever be
   /// evaluated if transforms lag by more than the time between two shapes.
-  std::vector<WaitingShape> waiting;
+  std::vector<WaitingShape> waiting = {};
   /// When the node last tried a step because the last successful step was long ago. Empty if a step
   /// has succeeded since.
-  std::optional<SteadyTime> tried;
+  std::optional<SteadyTime> tried = {};
   /// When a step of this pair first lacked a transform. Empty if none has lacked one.
-  std::optional<SteadyTime> first_without_transform;
+  std::optional<SteadyTime> first_without_transform = {};
 };
 
 /// The history of each pair of organ and tool, by the organ's name and the tool's index.
@@ -109,6 +111,8 @@ struct ToolStep {
   /// rests at `end`, because it has no last pose, or because no newer pose is known.
   bool moves = false;
   std::optional<Timed<ToolPose>> end = {};  ///< not set if the step failed before it was evaluated
+  std::size_t late = 0;                     ///< ToolPoses::late() when the step was planned
+  std::string missed = {};                  ///< ToolPoses::missed() since the last step
   /// True: the step has no transform, but TF may still be starting, because the pair has had no
   /// successful step yet. Nobody is warned in that case.
   bool is_starting = false;

@@ -92,20 +92,18 @@ StepWorkers::StepWorkers(const NodeParameters& parameters)
 }
 
 void StepScheduler::add(const OrganUpdate& update, SteadyTime now) {
-  if (!update.change) return;
-  const std::string& organ = update.message.organ();
-  for (auto pair = history_.begin();
-       update.change != OrganChange::kShape && pair != history_.end();) {
-    pair = pair->first.first == organ ? history_.erase(pair) : std::next(pair);
-  }
-  if (update.change == OrganChange::kRemoved) return;
+  if (!update.change || update.change == OrganChange::kRemoved) return;
+  follow_tools();
+  const DeformableOrgan& organ = organs_.at(update.message.organ());
   for (std::size_t tool = 0; tool < tools_.size(); ++tool) {
-    std::vector<WaitingShape>& waiting = history_[{organ, tool}].waiting;
+    OrganToolPair& pair = history_[{organ.name(), tool}];
+    if (pair.history != organ.history().number) pair = {organ.history().number};
+    std::vector<WaitingShape>& waiting = pair.waiting;
     if (!keeps_all_shapes_ && waiting.size() > 1) {
       waiting.pop_back();
       ++counts_.superseded;
     }
-    waiting.push_back({organs_.at(organ).latest(), now});
+    waiting.push_back({organ.latest(), now});
     ++counts_.due;
   }
 }
@@ -119,6 +117,7 @@ void StepScheduler::evaluate(SteadyTime now) {
   is_behind_ = load_.is_behind(begin);
   now_ = now;
   due_.clear();  // If an exception ended the last round, its steps are still there.
+  follow_histories();
   do {
     for (auto& [key, pair] : history_) {
       if (!pair.waiting.empty()) plan_front(organs_.at(key.first), key.second, pair);
@@ -169,7 +168,6 @@ void StepScheduler::plan_front(const DeformableOrgan& organ, std::size_t tool,
   WaitingShape& front = pair.waiting.front();
   const ros::Time stamp = front.shape.stamp;
   const bool may_wait = now_ < deadline(front);
-  forget_if_disproved(organ, tool, pair);
   const bool late = pair.last && !stamp.isZero() && stamp <= pair.last->stamp;
   const bool faulty = !tools_[tool].fault.empty();
   Lookup<ToolPose> end;
@@ -190,11 +188,10 @@ void StepScheduler::plan_front(const DeformableOrgan& organ, std::size_t tool,
 }
 
 /// Plans a step against the pair's current shape, with the latest pose. `only_new`: plans no step
-/// if the last one already ended at this pose.
+/// if the last one already ended at this pose, and no transform has come behind it since.
 void StepScheduler::plan_latest(const DeformableOrgan& organ, std::size_t tool, bool only_new) {
   OrganToolPair& pair = history_[{organ.name(), tool}];
   if (!pair.current.mesh) return;  // Its first shape still waits for a transform.
-  forget_if_disproved(organ, tool, pair);
   const ros::Time now = ros::Time::now();
   const std::string stale =
       stale_fault(organ.name(), pair.current, now, parameters_.mesh_timeout_sec);
@@ -202,8 +199,10 @@ void StepScheduler::plan_latest(const DeformableOrgan& organ, std::size_t tool, 
     return plan_failure(begin_step(organ, tool, pair, false), now, ContactArray::STALE_MESH, stale);
   }
   auto end = poses_.pose(tools_[tool], organ.frame(), ros::Time(0));
-  if (only_new && end.found && is_answered(pair, end.found->stamp)) return;
-  plan_step(begin_step(organ, tool, pair, false), std::move(end), now);
+  ToolStep step = begin_step(organ, tool, pair, false);
+  const bool is_known = end.found && is_answered(pair, end.found->stamp) && step.missed.empty();
+  if (only_new && is_known) return;
+  plan_step(std::move(step), std::move(end), now);
 }
 
 /// Plans steps for the pairs whose last step was so long ago that TF would soon forget how the tool
@@ -214,66 +213,75 @@ void StepScheduler::plan_long_steps() {
     if (!pair.last) continue;
     const auto& [organ_name, tool] = key;
     const DeformableOrgan& organ = organs_.at(organ_name);
-    if (!forget_if_disproved(organ, tool, pair)) {
-      if (pair.tried && now_ - *pair.tried < longest) continue;
-      const auto pose = poses_.pose(tools_[tool], organ.frame(), ros::Time(0));
-      if (!pose.found || is_answered(pair, pose.found->stamp)) continue;
-      const ros::Time from = pair.last->stamp, to = pose.found->stamp;
-      const bool is_long =
-          to > from && (now_ - pair.last->taken >= longest ||
-                        poses_.is_nearly_forgotten(tools_[tool], organ.frame(), from, to));
-      if (!is_long) continue;
-      pair.tried = now_;
-    }
+    if (pair.tried && now_ - *pair.tried < longest) continue;
+    const auto pose = poses_.pose(tools_[tool], organ.frame(), ros::Time(0));
+    if (!pose.found || is_answered(pair, pose.found->stamp)) continue;
+    const ros::Time from = pair.last->stamp, to = pose.found->stamp;
+    const bool is_long =
+        to > from && (now_ - pair.last->taken >= longest ||
+                      poses_.is_nearly_forgotten(tools_[tool], organ.frame(), from, to));
+    if (!is_long) continue;
+    pair.tried = now_;
     plan_latest(organ, tool, true);
   }
 }
 
-/// Forgets the last step of a pair if it ended at a stamp that turned out to be wrong
-/// (ToolPoses::is_disproved()). The next step is then static. Otherwise, the tool would be held at
-/// the pose of that stamp.
-bool StepScheduler::forget_if_disproved(const DeformableOrgan& organ, std::size_t tool,
-                                        OrganToolPair& pair) {
-  if (!pair.last) return false;
-  if (!poses_.is_disproved(tools_[tool], organ.frame(), pair.last->stamp)) return false;
-  ROS_WARN_THROTTLE(
-      1.0,
-      "tool '%s': the last step ended at %f s, ahead of the clock, and then transforms "
-      "came with earlier stamps: the history of the tool is forgotten",
-      tools_[tool].parameters.name.c_str(), pair.last->stamp.toSec());
-  pair.last.reset();
-  return true;
+std::vector<std::uint64_t> StepScheduler::histories_of(const std::vector<Tool>& tools) {
+  std::vector<std::uint64_t> numbers;
+  for (const Tool& tool : tools) numbers.push_back(tool.history);
+  return numbers;
 }
 
-void StepScheduler::change_tools(const KeptTools& kept) {
+void StepScheduler::follow_histories() {
+  follow_tools();
+  const ros::Time now = ros::Time::now();
+  for (auto at = history_.begin(); at != history_.end();) {
+    OrganToolPair& pair = at->second;
+    const auto organ = organs_.organs().find(at->first.first);
+    if (organ == organs_.organs().end()) {
+      at = history_.erase(at);
+      continue;
+    }
+    ++at;
+    const auto& [number, why] = organ->second.history();
+    if (pair.history == number) continue;
+    OrganToolPair anew{number};
+    const OrganShape& latest = organ->second.latest();
+    const bool waits = !pair.waiting.empty() && pair.waiting.back().shape.mesh == latest.mesh &&
+                       seconds_between(now, latest.stamp) < kClockTolerance;
+    if (waits) {
+      anew.waiting = {{latest, pair.waiting.back().arrival}};
+    } else {
+      anew.current = latest;
+    }
+    pair = std::move(anew);
+  }
+}
+
+/// The tools that are kept keep their history and what is due. The others become due.
+void StepScheduler::follow_tools() {
+  std::vector<std::uint64_t> numbers = histories_of(tools_);
+  if (numbers == tool_histories_) return;
+  const std::vector<std::uint64_t> old_numbers = std::exchange(tool_histories_, std::move(numbers));
   StepHistory old = std::exchange(history_, {});
-  const std::vector<char> was_due = std::exchange(tool_is_due_, std::vector<char>(kept.size()));
-  for (std::size_t tool = 0; tool < kept.size(); ++tool) {
-    tool_is_due_[tool] = !kept[tool] || was_due[*kept[tool]];
-    if (!kept[tool]) begin_with_latest_shapes(tool);
+  const std::vector<char> was_due =
+      std::exchange(tool_is_due_, std::vector<char>(tool_histories_.size()));
+  for (std::size_t tool = 0; tool < tool_histories_.size(); ++tool) {
+    const auto known = std::find(old_numbers.begin(), old_numbers.end(), tool_histories_[tool]);
+    const auto before = static_cast<std::size_t>(known - old_numbers.begin());
+    tool_is_due_[tool] = known == old_numbers.end() || was_due[before];
+    if (known == old_numbers.end()) begin_with_latest_shapes(tool);
     for (auto& [key, pair] : old) {
-      if (key.second == kept[tool]) history_[{key.first, tool}] = std::move(pair);
+      if (key.second == before) history_[{key.first, tool}] = std::move(pair);
     }
   }
 }
 
-void StepScheduler::reset() {
-  for (auto& [key, pair] : history_) {
-    pair.last.reset();
-    pair.answer.reset();
-    pair.current.forget_before();
-    for (WaitingShape& waiting : pair.waiting) waiting.shape.forget_before();
-  }
-}
-
-void StepScheduler::start_anew() {
-  history_.clear();
-  for (std::size_t tool = 0; tool < tools_.size(); ++tool) begin_with_latest_shapes(tool);
-}
-
 void StepScheduler::begin_with_latest_shapes(std::size_t tool) {
   for (const auto& [name, organ] : organs_.organs()) {
-    history_[{name, tool}].current = organ.latest();
+    OrganToolPair& pair = history_[{name, tool}];
+    pair.history = organ.history().number;
+    pair.current = organ.latest();
   }
 }
 
@@ -305,6 +313,8 @@ ToolStep StepScheduler::begin_step(const DeformableOrgan& organ, std::size_t too
   question.wait_for_surface({});  // It takes the surface if it is known, and does not wait.
   const bool has_last = pair.last && has_same_faces(*pair.last, *pair.current.mesh);
   if (has_last) step.last_answer = pair.last->answer;
+  step.late = poses_.late();
+  if (pair.last) step.missed = poses_.missed(tools_[tool], organ.frame(), pair.last->late);
   if (!parameters_.organ_motion) return step;
   // A shape after which newer shapes have come is not overdue.
   const bool is_old = pair.current.mesh != organ.latest().mesh;
@@ -362,6 +372,7 @@ void StepScheduler::answer(ToolStep& step, ContactQuery& query) const {
         " samples of the tool's motion were left out (motion_samples_max), because the node "
         "falls behind");
   }
+  if (sampled.unknown.empty()) sampled.unknown = step.missed;
   CollisionRequest request = question.request(std::move(sampled.path));
   step.answer = boost::make_shared<ContactArray>(question.unanswered());
   step.query_sec = query.evaluate(request, *step.answer, sampled.unknown);
@@ -382,8 +393,8 @@ void StepScheduler::deliver(ToolStep& step) {
     load_.add(step);
     poses_.set_answered(tools_[step.tool], step.question.frame, step.end->stamp);
     const ros::Time end = step.end->stamp, begin = pair.last ? pair.last->begin : end;
-    pair.last =
-        LastStep{std::move(step.end->value), end, pair.current.mesh, now_, step.answer, begin};
+    pair.last = LastStep{
+        std::move(step.end->value), end, pair.current.mesh, now_, step.answer, begin, step.late};
     pair.tried.reset();
   }
   pair.answer = step.answer;

@@ -98,10 +98,10 @@ class StepScheduler {
         poses_(poses),
         workers_(workers),
         publish_(std::move(publish)),
+        tool_histories_(histories_of(tools)),
         tool_is_due_(tools.size(), false) {}
 
-  /// Notes what a message did to an organ. A new shape becomes due for every tool. Forgets history
-  /// that cannot be compared with the organ's new shape.
+  /// Notes what a message did to an organ. A new shape becomes due for every tool.
   void add(const OrganUpdate& update, SteadyTime now);
   /// Notes that a tool's tip has a new pose: the tool becomes due.
   void add_pose(std::size_t tool);
@@ -120,16 +120,11 @@ class StepScheduler {
   /// their last step TF would soon forget. All but the shapes are evaluated with the latest poses.
   void evaluate(SteadyTime now);
 
-  /// Call it when the list of tools has been exchanged. The kept tools keep their history and what
-  /// is due. The other tools become due, with a static step against each organ's latest shape.
-  void change_tools(const KeptTools& kept);
-
-  /// Forgets all history: the next step of every tool is static. Waiting shapes go on waiting.
-  void reset();
-  /// Call it when the clock jumped back. Forgets all history, and drops the shapes that wait,
-  /// because their transforms will not come. Ticks and poses are then evaluated against each
-  /// organ's latest shape.
-  void start_anew();
+  /// Forgets what belongs to another history than that of an organ or tool: the next step is then
+  /// static. Of the shapes that wait, only the organ's latest one goes on waiting. A new tool
+  /// becomes due against each organ's latest shape. Other functions call it, but it must be called
+  /// as soon as the list of tools was exchanged, because tools are due by their index.
+  void follow_histories();
 
   /// The time at which evaluate() has work even if no transform comes. std::nullopt: never.
   std::optional<SteadyTime> next_deadline() const;
@@ -140,10 +135,10 @@ class StepScheduler {
   LoadWatch& load() { return load_; }
 
  private:
+  static std::vector<std::uint64_t> histories_of(const std::vector<Tool>& tools);
   void plan_front(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair);
   void plan_latest(const DeformableOrgan& organ, std::size_t tool, bool only_new);
   void plan_long_steps();
-  bool forget_if_disproved(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair);
   ToolStep begin_step(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair,
                       bool is_of_shape) const;
   void plan_step(ToolStep step, Lookup<ToolPose> end, ros::Time failure);
@@ -153,6 +148,7 @@ class StepScheduler {
   bool evaluate_due();
   void answer(ToolStep& step, ContactQuery& query) const;
   void deliver(ToolStep& step);
+  void follow_tools();
   void begin_with_latest_shapes(std::size_t tool);
   SteadyTime deadline(const WaitingShape& shape) const;
 
@@ -163,8 +159,9 @@ class StepScheduler {
   StepWorkers& workers_;
   Publish publish_;
   StepHistory history_;
-  std::vector<ToolStep> due_;      ///< the steps of one round
-  std::vector<char> tool_is_due_;  ///< for each tool, whether its tip has moved
+  std::vector<std::uint64_t> tool_histories_;  ///< the numbers of the tools' histories
+  std::vector<ToolStep> due_;                  ///< the steps of one round
+  std::vector<char> tool_is_due_;              ///< for each tool, whether its tip has moved
   bool tick_is_due_ = false;
   SteadyTime now_;           ///< the time of the last call of evaluate()
   SteadyTime next_lookout_;  ///< when to look again for steps that become too long

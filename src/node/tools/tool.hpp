@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -27,7 +28,8 @@ struct Tool {
   std::vector<Link> links;          ///< in the order of parameters.links
   std::vector<std::string> joints;  ///< for each link: the joint that moves it, or empty
   std::size_t fingerprint = 0;      ///< a hash of what the robot's files say of links and joints
-  std::string fault;  ///< why the links could not be loaded; empty if there was no error
+  std::string fault;          ///< why the links could not be loaded; empty if there was no error
+  std::uint64_t history = 0;  ///< the number of its history: that of a tool which is kept stays
 };
 
 /// Sentences about what is legal, but probably a mistake: the radius of the shaft, and the sizes of

@@ -94,7 +94,7 @@ void Replay::take(const rosbag::MessageInstance& message) {
     go_to(message.instantiate<rosgraph_msgs::Clock>()->clock);
   }
   for (const Handler& handle : topics_.at(message.getTopic()).handlers) handle(message);
-  pipeline_.watch_clock();
+  pipeline_.inbox.watch_clock();
   // A shape whose deadline is now may still get its transform from another message of this time.
   pipeline_.steps.evaluate(steady(now_) - std::chrono::nanoseconds(1));
 }
@@ -117,7 +117,7 @@ void Replay::go_to(ros::Time time) {
     now_ = next_tick_ = time;
   }
   ros::Time::setNow(now_);
-  pipeline_.watch_clock();
+  pipeline_.inbox.watch_clock();
 }
 
 /// Evaluates what is due between now and `time`: ticks, and shapes whose transforms did not come.

@@ -49,11 +49,13 @@ class MotionTopicsTest : public testing::Test {
 
   TransformBuffer buffer_;
   FailureLog rejected_;
+  AheadLimit ahead_;
   std::vector<std::size_t> arrived_;
   MotionTopics topics_{{streamed_tool("left"), streamed_tool("right")},
                        buffer_,
                        rejected_,
-                       [this](std::size_t tool) { arrived_.push_back(tool); }};
+                       [this](std::size_t tool) { arrived_.push_back(tool); },
+                       ahead_};
 };
 
 }  // namespace
@@ -162,8 +164,9 @@ TEST_F(MotionTopicsTest, ABaseThatWasRejectedIsNotTriedAgain) {
 TEST_F(MotionTopicsTest, ToolsMayShareATipAndItsPoses) {
   ToolParameters wide = streamed_tool("left");
   wide.name = "wide";
-  MotionTopics topics({streamed_tool("left"), wide}, buffer_, rejected_,
-                      [this](std::size_t tool) { arrived_.push_back(tool); });
+  MotionTopics topics(
+      {streamed_tool("left"), wide}, buffer_, rejected_,
+      [this](std::size_t tool) { arrived_.push_back(tool); }, ahead_);
   for (const double time : {1.0, 1.1}) {
     topics.take_tip(0, pose_of("base", time, {time, 0.0, 0.0}));
     topics.take_tip(1, pose_of("base", time, {time, 0.0, 0.0}));

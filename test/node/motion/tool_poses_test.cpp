@@ -184,7 +184,7 @@ TEST_F(ToolPosesTest, WhatIsMissingIsNamed) {
   EXPECT_EQ(why_not(silent, 1.0), "no pose came on /arm/measured_cp");
 }
 
-TEST_F(ToolPosesTest, PosesThatComeTooSeldomAreNamedWithTheirRate) {
+TEST_F(ToolPosesTest, PosesThatComeTooSeldomAreNamed) {
   Tool streamed = shaft_tool("hook", 0.005);
   streamed.parameters.tip_pose_topic = "/arm/measured_cp";
   const std::string behind = "TF from 'hook_tip' to 'liver' is 7 ms behind the stamp 1.007000000",
@@ -193,9 +193,6 @@ TEST_F(ToolPosesTest, PosesThatComeTooSeldomAreNamedWithTheirRate) {
   send_trocar(1.1);
   EXPECT_EQ(why_not(streamed, 1.007),
             behind + ": poses on /arm/measured_cp come seldom; " + remedy);
-  for (const double time : {0.8, 0.84, 0.88, 0.92, 0.96}) send_tip(time);
-  EXPECT_EQ(why_not(streamed, 1.007),
-            behind + ": poses on /arm/measured_cp came at 25 Hz; " + remedy);
   send_tip(1.3);
   EXPECT_EQ(why_not(streamed, 1.107),
             "TF from 'hook_trocar' to 'liver' is 7 ms behind the stamp 1.107000000");

@@ -127,8 +127,12 @@ TEST_F(TransformBufferTest, CountsWhatComesAfterItsStep) {
   send("arm", "tip", 2.5);
   send("world", "somewhere", 1.5);
   EXPECT_EQ(buffer_.late(), 0u);
+  EXPECT_EQ(buffer_.late_frame("liver", {"tip"}, 0), "");
   send("world", "arm", 1.5);
   EXPECT_EQ(buffer_.late(), 1u);
+  EXPECT_EQ(buffer_.late_frame("liver", {"tip"}, 0), "arm");
+  EXPECT_EQ(buffer_.late_frame("liver", {"tip"}, 1), "");
+  EXPECT_EQ(buffer_.late_frame("liver", {"somewhere"}, 0), "");
   buffer_.set_answered("liver", {"tip"}, ros::Time(1.0));
   send("arm", "tip", 2.0);
   EXPECT_EQ(buffer_.late(), 2u);

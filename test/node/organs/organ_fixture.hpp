@@ -132,7 +132,8 @@ class OrganRegistryTest : public testing::Test {
 
   const ros::M_stringPtr first_ = header();
   const ros::M_stringPtr second_ = header();
-  OrganRegistry store_{MeshLimits{2}};
+  AheadLimit ahead_;
+  OrganRegistry store_{MeshLimits{2}, ahead_};
 };
 
 }  // namespace organ_collision

@@ -77,7 +77,8 @@ struct Intake {
     return texts;
   }
 
-  OrganRegistry organs{MeshLimits{}};
+  AheadLimit ahead;
+  OrganRegistry organs{MeshLimits{}, ahead};
   FailureLog rejected;
   ros::CallbackQueue node, builder, inspector;
   OrganIntake intake{organs, rejected, OrganIntake::Threads{node, builder, inspector}};

@@ -46,7 +46,7 @@ TEST_F(OrganRegistryTest, AfterANewTopologyOrFrameThereIsNoPreviousShape) {
 TEST_F(OrganRegistryTest, ForgetsHistory) {
   apply(mesh(), ros::Time(7), first_);
   apply(vertices(3), ros::Time(8));
-  store_.forget_history();
+  store_.begin_histories("reset", ros::Time(8));
   EXPECT_FALSE(store_.at("liver").latest().before);
   EXPECT_EQ(store_.at("liver").latest().mesh->vertex(0).z(), 3.0);
   OrganMesh other = mesh();
@@ -242,7 +242,7 @@ TEST_F(OrganRegistryTest, AShapeOfARestartedSenderBeginsANewHistory) {
   };
   std::map<char, ros::M_stringPtr> connections{{'m', header()}, {'v', header()}};
   OrganMesh sheet = mesh();
-  std::uint32_t histories = 0;
+  std::uint64_t history = 0;
   for (const auto& row : rows) {
     SCOPED_TRACE(std::to_string(&row - rows) + ": " + row.restarts + " " + row.sends);
     for (const char* sender = row.restarts; *sender != 0; ++sender) connections[*sender] = header();
@@ -250,8 +250,11 @@ TEST_F(OrganRegistryTest, AShapeOfARestartedSenderBeginsANewHistory) {
     const OrganChange change = row.sends == 'v' ? apply(vertices(3), ros::Time(8), connections['v'])
                                                 : apply(sheet, ros::Time(8), connections['m']);
     EXPECT_EQ(change, row.change);
-    histories += row.change == anew ? 1 : 0;
-    EXPECT_EQ(store_.at("liver").histories(), histories);
+    const History& now = store_.at("liver").history();
+    EXPECT_EQ(std::exchange(history, now.number) != now.number, row.change == anew || &row == rows);
+    if (row.change == anew) {
+      EXPECT_EQ(now.why, "sender restarted");
+    }
     const bool has_previous = store_.at("liver").latest().before != nullptr;
     EXPECT_EQ(has_previous, row.change == on && &row != rows) << "the tissue moves";
   }
@@ -277,7 +280,7 @@ TEST_F(OrganRegistryTest, TheFirstMeshOfARemovedOrganHasNoHistoryToEnd) {
 
 TEST_F(OrganRegistryTest, AResetDoesNotHideThatTheSenderRestarts) {
   apply(mesh(), ros::Time(7), header());
-  store_.forget_history();
+  store_.begin_histories("reset", ros::Time(8));
   EXPECT_EQ(apply(mesh(), ros::Time(9), header()), OrganChange::kSender);
 }
 

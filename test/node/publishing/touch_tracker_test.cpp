@@ -72,6 +72,25 @@ Contact grip(std::int32_t link, std::uint32_t face, double x) {
 
 class TouchTrackerTest : public testing::Test {
  protected:
+  TouchTrackerTest() {
+    tool_.parameters.name = "hook";
+    for (const char* organ : {"liver", "kidney"}) send(organ);
+  }
+
+  /// A mesh of an organ; without vertices and faces, it removes the organ.
+  void send(const std::string& organ, bool has_faces = true) {
+    const auto mesh = boost::make_shared<OrganMesh>();
+    mesh->organ = organ;
+    mesh->header.frame_id = "liver_frame";
+    if (has_faces) {
+      mesh->vertices = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+      mesh->triangles = {0, 1, 2};
+    }
+    organs_.apply(mesh, ros::Time(1.0), {});
+  }
+
+  void end_histories() { touches_.end_histories(organs_, {tool_}); }
+
   /// The events since the last call, as "BEGIN NUMBER STAMP of FACE" or
   /// "END NUMBER STAMP of FACE: DURATION s, DEEPEST mm, FACES faces REASON".
   std::vector<std::string> told() {
@@ -128,6 +147,7 @@ class TouchTrackerTest : public testing::Test {
     step.last_answer = same ? last_ : nullptr;
     if (answer.status == ContactArray::OK) last_ = step.answer;
     step.question.tool = {std::shared_ptr<const Tool>(), &tool_};
+    step.question.organ_history = organs_.at(answer.organ).history().number;
     step.question.shape = organ_.latest();
     step.question.sampled.path = {{0.0, {}, poses_}};
     const TouchTracker::Time time(std::chrono::nanoseconds(std::llround(1e9 * now)));
@@ -144,6 +164,8 @@ class TouchTrackerTest : public testing::Test {
     follow(answer(end, {grip(kLeft, 1, 0.0), grip(kRight, 2, x)}));
   }
 
+  AheadLimit ahead_;
+  OrganRegistry organs_{MeshLimits{}, ahead_};
   std::vector<TouchEvent> events_;
   std::vector<Grasp> grasps_;
   Tool tool_ = [] {
@@ -237,20 +259,26 @@ TEST_F(TouchTrackerTest, MayTakeLongerThanADurationOfRosHolds) {
 TEST_F(TouchTrackerTest, EndsOfOtherReasonsHaveTheStampOfTheLastAnswer) {
   follow(answer(1.0, {contact(1, 1.0, 0.001)}));
   follow(answer(2.0, {contact(1, 1.0, 0.001)}));
-  touches_.end_all("reset");
-  touches_.end_all("reset");
+  organs_.begin_histories("reset", ros::Time(2.0));
+  end_histories();
+  end_histories();
   EXPECT_EQ(told(), (Texts{"BEGIN 1 1 of 1", "END 1 2 of 1: 1 s, 1 mm, 1 faces reset"}));
   follow(answer(3.0, {contact(1, 3.0, 0.001)}));
   ContactArray kidney = answer(3.0, {contact(4, 3.0, 0.001)});
   kidney.organ = "kidney";
   follow(kidney);
-  EXPECT_EQ(told(), (Texts{"BEGIN 2 3 of 1", "BEGIN 1 3 of 4"})) << "each pair counts its own";
-  touches_.forget_organ("liver", "organ removed");
-  EXPECT_EQ(told(), Texts{"END 2 3 of 1: 0 s, 1 mm, 1 faces organ removed"});
-  touches_.forget_other_tools({"hook"}, "tools changed");
+  EXPECT_EQ(told(), (Texts{"BEGIN 1 3 of 1", "BEGIN 1 3 of 4"})) << "each pair counts its own";
+  send("liver", false);
+  end_histories();
+  EXPECT_EQ(told(), Texts{"END 1 3 of 1: 0 s, 1 mm, 1 faces organ removed"});
+  send("liver");
+  end_histories();
   EXPECT_EQ(told(), Texts());
   follow(answer(4.0, {contact(1, 4.0, 0.001)}));
-  EXPECT_EQ(told(), Texts{"BEGIN 1 4 of 1"}) << "a forgotten pair begins anew";
+  send("liver", false);
+  send("liver");
+  end_histories();
+  EXPECT_EQ(told(), (Texts{"BEGIN 1 4 of 1", "END 1 4 of 1: 0 s, 1 mm, 1 faces organ removed"}));
 }
 
 TEST_F(TouchTrackerTest, TwoAnswersBeginAGraspAndTimeOrOpenedJawsEndIt) {
@@ -380,18 +408,22 @@ TEST_F(TouchTrackerTest, EndsWithAReasonEndAGraspAtOnce) {
   EXPECT_EQ(grasps(), (Texts{"GRASPED 1 1.5 of 1 and 2: 3 mm",
                              "RELEASED 1 1.5 of 1 and 2: 3 mm, 0 s no answer"}));
   grasp(6.0);
-  touches_.end_all("reset");
+  organs_.begin_histories("reset", ros::Time(7.0));
+  end_histories();
   hold(7.0);
   EXPECT_EQ(grasps(), (Texts{"GRASPED 2 6.5 of 1 and 2: 3 mm",
                              "RELEASED 2 6.5 of 1 and 2: 3 mm, 0 s reset"}));
   hold(7.1);
-  touches_.forget_other_tools({"hook"}, "tools changed");
-  touches_.forget_organ("kidney", "organ removed");
-  EXPECT_EQ(grasps(), Texts{"GRASPED 3 7.1 of 1 and 2: 3 mm"}) << "a reload keeps it";
-  touches_.forget_organ("liver", "organ removed");
-  EXPECT_EQ(grasps(), Texts{"RELEASED 3 7.1 of 1 and 2: 3 mm, 0 s organ removed"});
+  send("kidney", false);
+  end_histories();
+  EXPECT_EQ(grasps(), Texts{"GRASPED 1 7.1 of 1 and 2: 3 mm"}) << "another organ matters not";
+  send("liver", false);
+  end_histories();
+  EXPECT_EQ(grasps(), Texts{"RELEASED 1 7.1 of 1 and 2: 3 mm, 0 s organ removed"});
+  send("liver");
   grasp(8.0);
-  touches_.forget_other_tools({}, "tools changed");
+  ++tool_.history;
+  end_histories();
   EXPECT_EQ(grasps(), (Texts{"GRASPED 1 8.5 of 1 and 2: 3 mm",
                              "RELEASED 1 8.5 of 1 and 2: 3 mm, 0 s tools changed"}));
 }

@@ -97,7 +97,7 @@ class MovingNode : public NodeParts {
   const std::vector<ContactArray>& handle(const Event& event) {
     const ros::Time before = ros::Time::now();
     ros::Time::setNow(ros::Time(kStart + event.time));
-    pipeline.watch_clock();
+    pipeline.inbox.watch_clock();
     if (event.kind == Event::kPose) send_pose(event.stamp);
     if (event.kind == Event::kShape) send_shape(event.stamp);
     if (event.kind == Event::kTick) steps.add_tick();
@@ -201,7 +201,7 @@ struct Row {
 /// Sets the clock.
 void pass(NodeParts& node, double time) {
   ros::Time::setNow(ros::Time(time));
-  node.pipeline.watch_clock();
+  node.pipeline.inbox.watch_clock();
 }
 
 const std::vector<Row> kRows = {
@@ -219,7 +219,9 @@ const std::vector<Row> kRows = {
      -0.5},
     {"other triangles", [](NodeParts& node) { node.send_mesh(50.9, 0.5F, 2); }, 0.0},
     {"the same triangles", [](NodeParts& node) { node.send_mesh(51.0, 0.4F, 2); }, -1.0},
-    {"a reset", [](NodeParts& node) { node.pipeline.reset(), node.steps.add_tick(); }, 0.0},
+    {"a reset",
+     [](NodeParts& node) { node.pipeline.inbox.begin_history("reset"), node.steps.add_tick(); },
+     0.0},
     {"a shape after it", [](NodeParts& node) { node.send_mesh(51.1, 0.1F, 2); }, 0.0},
     {"the next one", [](NodeParts& node) { node.send_mesh(51.2, 0.2F, 2); }, 1.0},
     {"a shape that came long before its transform",
