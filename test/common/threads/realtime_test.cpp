@@ -14,7 +14,7 @@ namespace organ_collision {
 namespace {
 
 // The system may grant or refuse each request. test/rostest/start_test.py compares what the
-// nodes say of all their threads, locked memory and awake cores with what the system says.
+// nodes say of all their threads and locked memory with what the system says.
 
 constexpr int kPriority = 7;
 
