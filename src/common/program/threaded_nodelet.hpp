@@ -45,8 +45,9 @@ class ThreadedNodelet : public nodelet::Nodelet {
       kRun(getNodeHandle(), getPrivateNodeHandle(), control_);
     } catch (const std::exception& error) {
       if (is_ready) {
-        NODELET_FATAL("broke down, and answers nothing more: %s; unload it, and load it again",
-                      error.what());
+        NODELET_FATAL(
+            "nodelet %s broke down, and answers nothing more: %s; unload it, and load it again",
+            getName().c_str(), error.what());
       } else {
         NODELET_FATAL("%s", error.what());
         ready.set_exception(std::current_exception());
