@@ -53,8 +53,6 @@ int main(int argc, char** argv) {
     }
   }
   add_grasper_cases(cache);
-  add_proxy_cases(cache);
-  add_rough_motion_cases();
   SilentReporter display;
   PlainJsonReporter file;
   benchmark::RunSpecifiedBenchmarks(&display, &file);

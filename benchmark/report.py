@@ -13,18 +13,14 @@ import matplotlib
 matplotlib.use('Agg')
 from matplotlib import pyplot, ticker  # noqa: E402
 
-ENGINES = ['ours', 'ours_egl', 'cpu', 'ours_no_clusters', 'select_paper', 'scan', 'bullet', 'bullet_gimpact', 'embree',
+ENGINES = ['ours', 'ours_egl', 'cpu', 'select_paper', 'scan', 'bullet', 'bullet_gimpact', 'embree',
            'fcl', 'fcl_obb', 'fcl_obb_rebuilt', 'cgal', 'vertex_pass', 'memcpy']
 PARTS = ['step', 'update', 'static', 'swept', 'static_rigid', 'swept_rigid']
 CONTACT_PARTS = ['contacts', 'step_contacts', 'contacts_moving', 'step_moving']
 
 WHERE = {'ours': 'ours: contacts, clearance up to 20 mm, placement',
-         'ours_unlimited': 'ours_unlimited: contacts, clearance without a limit, placement',
          'ours_near': 'ours_near: contacts, 100 faces within 20 mm', 'fcl': 'fcl: distance of the shaft',
          'embree': 'embree: distance of the tip up to 20 mm', 'cgal': 'cgal: side of the tip'}
-
-PROXY = {'proxy_slide': 'trocar, organ rests', 'proxy_slide_moving': 'trocar', 'proxy_flight_moving': 'trocar, free flight',
-         'proxy_shaft_moving': 'free shaft', 'proxy_ball_moving': 'free ball', 'proxy_grasper_moving': 'free grasper'}
 
 # What the plot shows of a step, in words. The engines that are left out are variants of ours.
 PLOTTED = {'ours': 'this package', 'select_paper': 'the 1999 paper', 'scan': 'all vertices tested', 'bullet': 'Bullet',
@@ -120,23 +116,9 @@ def where_table(results):
     rows = [[what] + [microseconds(results.time.get(('where', engine, faces, False))) for faces in sizes]
             for engine, what in WHERE.items()]
     rows += [[f'{engine} / ours'] + [ratio(results, 'where', engine, 'ours', faces) for faces in sizes]
-             for engine in ('ours_unlimited', 'fcl', 'embree', 'cgal')]
+             for engine in ('fcl', 'embree', 'cgal')]
     wrong = sum(results.fastest['where', engine, faces, False]['wrong'] for engine in WHERE for faces in sizes)
     return table(['where the tool is, µs'] + sizes, rows) + f'\nWrong answers in all: {wrong:.0f}.\n'
-
-
-def proxy_table(results):
-    """A tick of a haptic proxy. The penalty law needs at least one swept query a tick."""
-    rows = []
-    for part, what in PROXY.items():
-        for faces in results.sizes:
-            ours, penalty = (results.fastest.get((part, engine, faces, False)) for engine in ('ours', 'penalty'))
-            if ours:
-                rows.append([f'{what}, {faces} faces'] + [microseconds(ours[name]) for name in ('median', 'p99', 'p99_9')]
-                            + [microseconds(ours['update']) if ours['update'] else '', microseconds(penalty['median']),
-                               f"{ours['median'] / penalty['median']:.1f}", f"{ours['contacts']:.1f}"])
-    return table(['a tick, µs', 'median', '99th percentile', '99.9th percentile', 'move_vertices, median',
-                  'one swept query, median', 'ratio', 'contacts'], rows)
 
 
 def error_table(results):
@@ -189,7 +171,6 @@ def write_table(results, path):
             'Vertices and faces in random order:\n', *(part_table(results, part, True) for part in PARTS),
             '## Contacts with full geometry\n', contact_table(results),
             '## Where the tool is\n', where_table(results),
-            '## A haptic proxy\n', proxy_table(results),
             '## A grasper\n', grasper_table(results),
             "## The paper's figures 11 and 12\n", paper_table(results, 1224), paper_table(results, 4),
             '## Answers against the oracle, in all steps together\n', error_table(results)]

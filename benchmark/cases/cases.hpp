@@ -37,9 +37,5 @@ void add_vertex_pass_cases(MeasurementCache& cache, const SceneKey& key);
 void add_where_cases(MeasurementCache& cache, const SceneKey& key);
 /// A grasper with three links.
 void add_grasper_cases(MeasurementCache& cache);
-/// Ticks of a haptic proxy.
-void add_proxy_cases(MeasurementCache& cache);
-/// Motion that is not smooth.
-void add_rough_motion_cases();
 
 }  // namespace organ_collision::bench

@@ -61,7 +61,6 @@ constexpr EngineEntry kEngines[] = {
     {"ours", make_ours, kAll, 1e-9},
     {"ours_egl", make_ours_egl, kAll, 1e-9},
     {"cpu", make_cpu, kAll, 1e-9},
-    {"ours_no_clusters", make_ours_no_clusters, kAll, 2e-9},
     {"select_paper", make_select_paper, 100'000, 3e-6},
     {"fcl", make_fcl, kAll, 1e-7},
     {"fcl_obb", make_fcl_obb, 1224, 1e-6},

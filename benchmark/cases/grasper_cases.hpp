@@ -15,11 +15,7 @@ namespace organ_collision::bench {
 /// jaws close.
 class GrasperMeasurement {
  public:
-  /// Checks the answers to the first steps against brute force before anything is timed.
   GrasperMeasurement();
-
-  const CheckSummary& summary() const { return summary_; }
-  const CheckSummary& fcl_summary() const { return fcl_summary_; }
 
   /// How long the next query took [s].
   double static_query() { return query(QueryMode::kStatic); }
@@ -29,8 +25,6 @@ class GrasperMeasurement {
  private:
   double query(QueryMode mode);
   CollisionRequest request(const ToolPath& path, QueryMode mode) const;
-  Answer brute_force(const ToolPath& path, QueryMode mode) const;
-  void check();
 
   OrganSurface surface_;
   TriangleMesh organ_;
@@ -39,7 +33,6 @@ class GrasperMeasurement {
   CollisionResult result_;
   FclTool fcl_;
   std::vector<std::uint32_t> faces_;
-  CheckSummary summary_, fcl_summary_;
   std::size_t next_ = 0;
 };
 

@@ -34,21 +34,8 @@ ContactMeasurement& MeasurementCache::contacts(const SceneKey& key) {
 }
 
 GrasperMeasurement& MeasurementCache::grasper() {
-  if (!grasper_) {
-    grasper_ = std::make_unique<GrasperMeasurement>();
-    report_check("ours, a grasper", {1224, false}, grasper_->summary());
-    report_check("fcl, a grasper", {1224, false}, grasper_->fcl_summary());
-  }
+  if (!grasper_) grasper_ = std::make_unique<GrasperMeasurement>();
   return *grasper_;
-}
-
-ProxyMeasurement& MeasurementCache::proxy(const std::string& part, const ProxyTask& task) {
-  std::unique_ptr<ProxyMeasurement>& measurement = proxies_[{part, task.faces}];
-  if (!measurement) {
-    measurement = std::make_unique<ProxyMeasurement>(task);
-    report_check("ours, " + part, {task.faces, false}, measurement->summary());
-  }
-  return *measurement;
 }
 
 WhereMeasurement& MeasurementCache::where(const std::string& locator,

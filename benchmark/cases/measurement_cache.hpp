@@ -10,7 +10,6 @@
 #include "contact_cases.hpp"
 #include "engine_cases.hpp"
 #include "grasper_cases.hpp"
-#include "proxy_cases.hpp"
 #include "where_cases.hpp"
 
 namespace organ_collision::bench {
@@ -36,8 +35,6 @@ class MeasurementCache {
                             const SceneKey& key, bool rigid);
   ContactMeasurement& contacts(const SceneKey& key);
   GrasperMeasurement& grasper();
-  /// `part`: the task's name.
-  ProxyMeasurement& proxy(const std::string& part, const ProxyTask& task);
   /// `make` creates the locator called `locator`.
   WhereMeasurement& where(const std::string& locator, std::unique_ptr<Locator> (*make)(),
                           const SceneKey& key);
@@ -52,7 +49,6 @@ class MeasurementCache {
   std::map<std::tuple<std::string, SceneKey, bool>, std::unique_ptr<EngineMeasurement>> engines_;
   std::map<SceneKey, std::unique_ptr<ContactMeasurement>> contacts_;
   std::unique_ptr<GrasperMeasurement> grasper_;
-  std::map<std::pair<std::string, std::size_t>, std::unique_ptr<ProxyMeasurement>> proxies_;
   std::map<std::pair<std::string, SceneKey>, std::unique_ptr<WhereMeasurement>> where_;
   std::size_t own_errors_ = 0;
 };

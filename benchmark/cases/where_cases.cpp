@@ -102,7 +102,6 @@ struct LocatorEntry {
 };
 
 constexpr LocatorEntry kLocators[] = {{"ours", make_our_locator, 1e-9},
-                                      {"ours_unlimited", make_our_unlimited_locator, 1e-9},
                                       {"ours_near", make_our_near_locator, 1e-9},
                                       {"fcl", make_fcl_locator, 1e-6},
                                       {"embree", make_embree_locator, 5e-8},

@@ -10,7 +10,6 @@
 #include <memory>
 #include <sstream>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "benchmark/cases/timing.hpp"
@@ -45,12 +44,10 @@ double time_of(Work work) {
 /// The ticks of one kind.
 struct Ticks {
   Durations times, ratios;  ///< ratios: to the swept query of the same step
-  std::vector<std::pair<double, std::size_t>> slowest = {};
 
-  void add(double seconds, double query, std::size_t tick) {
+  void add(double seconds, double query) {
     times.add(seconds);
     ratios.add(seconds / query);
-    slowest.emplace_back(seconds, tick);
   }
 };
 
@@ -148,7 +145,7 @@ void Measurement::follow(std::size_t tick) {
     const double seconds = time_of([&] { answer = &run.proxy.follow(hand, organs); });
     const bool is_free = answer->state == ProxyStatus::kFree;
     Ticks& ticks = answer->is_placed_anew ? run.anew : is_free ? run.free : run.held;
-    ticks.add(seconds, query, tick);
+    ticks.add(seconds, query);
     if (answer->state == ProxyStatus::kNoAnswer) continue;
     run.most_tests = std::max(run.most_tests, answer->tests);
     run.most_contacts = std::max(run.most_contacts, answer->contacts.size());
@@ -191,14 +188,6 @@ void Measurement::print() const {
     std::cout << " | | | |\n";
     bench::print(name.str() + ", placed anew", run.anew);
     std::cout << " | | | |\n";
-  }
-  for (const Run& run : runs_) {
-    std::vector<std::pair<double, std::size_t>> slowest = run.held.slowest;
-    std::sort(slowest.rbegin(), slowest.rend());
-    slowest.resize(std::min<std::size_t>(slowest.size(), 8));
-    std::cout << 1e3 * run.clearance << " mm, slowest:";
-    for (const auto& [seconds, tick] : slowest) std::cout << ' ' << tick << ": " << 1e6 * seconds;
-    std::cout << '\n';
   }
 }
 

@@ -3,8 +3,6 @@
 #include <organ_collision/ContactArray.h>
 #include <organ_collision/OrganMesh.h>
 #include <organ_collision/OrganVertices.h>
-#include <organ_collision/QueryCollision.h>
-#include <pthread.h>
 #include <ros/callback_queue.h>
 #include <ros/names.h>
 #include <ros/node_handle.h>
@@ -45,8 +43,6 @@ class Simulator {
   void start();
   /// Publishes shapes at `rate` [Hz] for `seconds`, whether or not answers arrive.
   LatencyReport run(double rate, double seconds);
-  /// Asks static queries for `seconds`, one after the other, over one persistent connection.
-  LatencyReport ask(double seconds);
 
  private:
   struct Sent {
@@ -62,7 +58,6 @@ class Simulator {
   OrganSurface organ_;
   std::vector<std::vector<float>> shapes_;
   std::vector<ShaftMotion> tools_;
-  double radius_;
   std::size_t step_ = 0;
   std::vector<boost::shared_ptr<OrganVertices>> messages_;
   std::unordered_map<std::uint64_t, Sent> waiting_;
@@ -105,7 +100,6 @@ std::string tool_frame(std::size_t tool, const char* end) {
 
 Simulator::Simulator(std::size_t faces, std::size_t tools) : organ_(make_organ(faces)) {
   const SceneScale scale(faces);
-  radius_ = scale.radius;
   for (std::size_t i = 0; i < kShapes; ++i) {
     shapes_.push_back(
         deformed(organ_.vertices, kTwoPi * i / kShapes, kOrganShare * scale.organ_step));
@@ -181,28 +175,6 @@ LatencyReport Simulator::run(double rate, double seconds) {
   return report;
 }
 
-LatencyReport Simulator::ask(double seconds) {
-  ros::ServiceClient client =
-      node_.serviceClient<QueryCollision>("organ_collision/query", /*persistent=*/true);
-  QueryCollision query;
-  query.request.header.frame_id = kOrgan;
-  query.request.organ = kOrgan;
-  query.request.mode = ContactArray::STATIC;
-  query.request.motion.radius = radius_;
-  LatencyReport report;
-  const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(seconds);
-  while (ros::ok() && ros::SteadyTime::now() < end) {
-    const ShaftAxis& axis = tools_[report.sent++ % tools_.size()].end;
-    query.request.motion.trocar = tf2::toMsg(axis.trocar);
-    query.request.motion.tip = tf2::toMsg(axis.tip);
-    const ros::SteadyTime start = ros::SteadyTime::now();
-    const bool answered = client.call(query);
-    report.latencies.add((ros::SteadyTime::now() - start).toSec());
-    if (!answered || query.response.result.status != ContactArray::OK) ++report.failed;
-  }
-  return report;
-}
-
 /// The tips move back and forth.
 void Simulator::send_poses(ros::Time stamp) {
   ++step_;
@@ -260,15 +232,6 @@ using organ_collision::bench::Echo;
 using organ_collision::bench::print;
 using organ_collision::bench::Simulator;
 
-/// Gives the calling thread realtime priority.
-void set_priority(int priority) {
-  sched_param parameters{};
-  parameters.sched_priority = priority;
-  if (pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters) != 0) {
-    throw std::runtime_error("the system refuses realtime priority");
-  }
-}
-
 /// Does what a line of standard input asks for.
 void obey(const std::string& line, Simulator& simulator) {
   std::istringstream words(line);
@@ -276,11 +239,6 @@ void obey(const std::string& line, Simulator& simulator) {
   words >> what;
   if (double rate = 0.0, seconds = 0.0; what == "shapes" && words >> rate >> seconds) {
     print("shapes", simulator.run(rate, seconds));
-  } else if (what == "service" && words >> seconds) {
-    print("service", simulator.ask(seconds));
-  } else if (int priority = 0; what == "priority" && words >> priority) {
-    set_priority(priority);
-    std::cout << "{}" << std::endl;
   } else {
     throw std::runtime_error("what is '" + line + "'?");
   }
@@ -293,8 +251,6 @@ void obey(const std::string& line, Simulator& simulator) {
 // the nodelet or an Echo in this process. When it gets answers, it prints an empty line. Then it
 // reads what to measure from standard input and prints a line of JSON for each line that it reads:
 //   shapes RATE SECONDS   the latencies from shapes to contacts, the shapes being sent at RATE [Hz]
-//   service SECONDS       the latencies of service calls
-//   priority PRIORITY     {}; from now on, the simulator's thread has this realtime priority
 int main(int argc, char** argv) {
   ros::init(argc, argv, "end_to_end");
   if (argc != 4) return std::cerr << "end_to_end external|nodelet|echo FACES TOOLS" << std::endl, 2;

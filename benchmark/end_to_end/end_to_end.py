@@ -14,9 +14,6 @@ import os
 import pathlib
 import tempfile
 
-from awake_cores import measure_awake_cores
-from beside_batch import measure_beside_batch
-from busy_machine import measure_busy_machine
 from hands import SIZES as HAND_SIZES
 from hands import measure_hands
 from report import markdown
@@ -25,7 +22,7 @@ from shapes import HIGHEST_RATE, measure_size
 from subject import Workspace
 
 
-PARTS = ('hands', 'shapes', 'batch', 'busy', 'awake')
+PARTS = ('hands', 'shapes')
 
 
 def main():
@@ -52,15 +49,6 @@ def main():
                 if 'shapes' in parts:
                     print(f'{faces} faces, shapes', flush=True)
                     reports += measure_size(master, workspaces, faces, given.seconds)
-            if 'batch' in parts:
-                print('shapes while batches run', flush=True)
-                reports += measure_beside_batch(master, workspaces, given.seconds)
-            if 'busy' in parts:
-                print('shapes on busy cores', flush=True)
-                reports += measure_busy_machine(master, workspaces[''], given.seconds)
-            if 'awake' in parts:
-                print('shapes on awake cores', flush=True)
-                reports += measure_awake_cores(master, workspaces[''], given.seconds)
     given.folder.mkdir(exist_ok=True)
     (given.folder / 'end_to_end.json').write_text(json.dumps(reports, indent=1) + '\n')
     (given.folder / 'end_to_end.md').write_text(markdown(reports))

@@ -27,7 +27,7 @@ def measure(workspace, kind, answerer, faces, seconds):
     if done.returncode != 0:
         sys.exit(f'end_to_end: {" ".join(command)} failed')
     return [dict(Latencies.of_report(json.loads(line)).summary(), what='poses', workspace='', kind=kind, faces=faces,
-                 tools=1, held=None, bytes_per_face=None)
+                 tools=1, held=None)
             for line in done.stdout.splitlines() if line.startswith('{')]
 
 

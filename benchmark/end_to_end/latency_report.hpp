@@ -14,7 +14,7 @@ void answer_until(ros::Time time, ros::CallbackQueue& queue);
 
 /// The latencies of a run, and how many answers were missing or wrong.
 struct LatencyReport {
-  double rate = 0.0;  ///< [Hz] of published messages; 0 for service calls, which have no set rate
+  double rate = 0.0;  ///< [Hz] of published messages
   std::size_t sent = 0;
   std::size_t skipped = 0;   ///< messages to which not all answers arrived
   std::size_t failed = 0;    ///< answers that say that there is none

@@ -70,9 +70,7 @@ const ros::Duration kLastAnswers(0.05);
 }  // namespace
 
 Hand::Hand(std::size_t faces)
-    : organ_(faces),
-      lap_(sliding_lap(HandTool::kTrocar, kDepth)),
-      shape_period_(faces > 10'000 ? 10 : 1) {
+    : organ_(faces), lap_(sliding_lap(kDepth)), shape_period_(faces > 10'000 ? 10 : 1) {
   node_.setCallbackQueue(&queue_);
   mesh_ = node_.advertise<OrganMesh>("haptic_proxy/organ_mesh", 1, true);
   vertices_ = node_.advertise<OrganVertices>("haptic_proxy/organ_vertices", 10);

@@ -3,7 +3,7 @@
 from shapes import TOOLS, echo_of
 from subject import ECHO
 
-WHAT = {'shapes': 'shape to contacts', 'service': 'service call', 'poses': 'pose to wrench'}
+WHAT = {'shapes': 'shape to contacts', 'poses': 'pose to wrench'}
 LATENCY_HEAD = ('median, µs', '99th percentile', '99.9th percentile', 'worst')
 
 
@@ -27,10 +27,10 @@ def name(report):
 
 
 def latency_table(reports):
-    head = ('', 'faces', 'tools', 'rate, Hz', 'held', 'sent', 'skipped', *LATENCY_HEAD, 'bytes a face')
+    head = ('', 'faces', 'tools', 'rate, Hz', 'held', 'sent', 'skipped', *LATENCY_HEAD)
     held = {None: '', True: 'yes', False: 'no'}
     return table(head, [(f"{name(r)}, {WHAT[r['what']]}", r['faces'], r['tools'], whole(r['rate'] or None), held[r['held']],
-                         r['sent'], r['skipped'], *latencies(r), whole(r['bytes_per_face']))
+                         r['sent'], r['skipped'], *latencies(r))
                         for r in reports if r['what'] in WHAT])
 
 
@@ -52,27 +52,7 @@ def comparison_table(reports):
                   'of it the query, µs', 'the rest, µs'), rows)
 
 
-def batch_table(reports):
-    rows = [(name(r), r['load'], whole(r['motions_per_second']), r['sent'], r['skipped'], *latencies(r))
-            for r in reports if r['what'] == 'beside a batch']
-    return table(('', 'beside', 'motions a second', 'sent', 'skipped', *LATENCY_HEAD), rows)
-
-
-def load_table(reports):
-    rows = [(r['kind'], r['setting'] or 'default', r['load'], r['sent'], r['skipped'], *latencies(r))
-            for r in reports if r['what'] == 'load']
-    return table(('', 'parameters', 'cores', 'sent', 'skipped', *LATENCY_HEAD), rows)
-
-
-def awake_table(reports):
-    rows = [(r['kind'], r['picker'], r['tools'], r['cores'], r['sent'], r['skipped'], *latencies(r), whole(r['query']))
-            for r in reports if r['what'] == 'awake cores']
-    return table(('', 'picker', 'tools', 'cores', 'sent', 'skipped', *LATENCY_HEAD, 'of it the query, µs'), rows)
-
-
-SECTIONS = ((WHAT, 'Latencies', latency_table), ({'shapes'}, 'At the same rate', comparison_table),
-            ({'beside a batch'}, 'Steps while batches run', batch_table), ({'load'}, 'Steps on busy cores', load_table),
-            ({'awake cores'}, 'Steps on awake cores', awake_table))
+SECTIONS = ((WHAT, 'Latencies', latency_table), ({'shapes'}, 'At the same rate', comparison_table))
 
 
 def markdown(reports):

@@ -54,20 +54,14 @@ def measure_shapes(subjects, faces, seconds):
             if held is False:
                 lost |= {key, echo_of(key)}
             reports.append(dict(run.summary(), what='shapes', workspace=label, kind=kind, faces=faces, tools=tools,
-                                held=held, bytes_per_face=subjects[key].bytes_per_face))
+                                held=held))
         subjects = {key: subject for key, subject in subjects.items() if key in lost}
         if not subjects:
             break
     return reports
 
 
-def measure_service(subjects, faces, seconds):
-    return [dict(subject.call_service(seconds).summary(), what='service', workspace=key[0], kind=key[1], faces=faces,
-                 tools=key[2], held=None, bytes_per_face=None)
-            for key, subject in subjects.items() if key[1] in ECHO and key[2] == TOOLS[0]]
-
-
 def measure_size(master, workspaces, faces, seconds):
     with contextlib.ExitStack() as stack:
         subjects = subjects_of(master, workspaces, faces, stack)
-        return measure_shapes(subjects, faces, seconds) + measure_service(subjects, faces, seconds)
+        return measure_shapes(subjects, faces, seconds)

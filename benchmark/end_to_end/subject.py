@@ -23,11 +23,6 @@ def tools_for(faces, count):
              'radius': RADIUS[faces]} for i in range(count)]
 
 
-def resident_bytes(process):
-    status = pathlib.Path(f'/proc/{process.pid}/status').read_text()
-    return 1024 * int(status.split('VmRSS:')[1].split()[0])
-
-
 class Workspace:
     """A built workspace, whose programs run in its environment."""
 
@@ -42,13 +37,12 @@ class Subject:
     """Several subjects may be alive at once, each in a namespace of its own, and be measured in turn: the speed of a
     machine drifts, and only what is measured in turn can be compared."""
 
-    def __init__(self, master, workspace, kind, faces, tools, parameters=None, simulator_prefix=()):
+    def __init__(self, master, workspace, kind, faces, tools):
         self.kind, self.faces, self.tools = kind, faces, tools
         self.namespace = f'/subject{next(_numbers)}'
         self.node = None
-        self.bytes_per_face = None
         names = [f'__ns:={self.namespace}'] + [f'{topic}:={self.namespace}{topic}' for topic in OF_ALL]
-        master.set_parameters(f'{self.namespace}/organ_collision', dict(parameters or {}, tools=tools_for(faces, tools)))
+        master.set_parameters(f'{self.namespace}/organ_collision', {'tools': tools_for(faces, tools)})
         answerer, program = ANSWERERS[kind]
         if kind == 'node':
             self.node = subprocess.Popen(workspace.command(program, '__name:=organ_collision', *names),
@@ -56,24 +50,13 @@ class Subject:
             master.wait_for_service(f'{self.namespace}/organ_collision/query')
         elif program:
             self.node = subprocess.Popen(workspace.command(program, tools, *names), stdout=subprocess.DEVNULL)
-        idle = resident_bytes(self.node) if self.node else 0
-        self.simulator = Program([*simulator_prefix, *workspace.command('end_to_end', answerer, faces, tools, *names)])
+        self.simulator = Program(workspace.command('end_to_end', answerer, faces, tools, *names))
         self.simulator.read_line()
         self.run_shapes(20.0, 1.0)
-        if kind == 'node':  # Before any higher rate: if the node cannot keep up, waiting messages take memory, too.
-            self.bytes_per_face = (resident_bytes(self.node) - idle) / faces
 
     def run_shapes(self, rate, seconds):
         """The latencies from shapes that are sent at a rate [Hz] to the contacts of the last tool."""
         return Latencies.of_report(self.simulator.ask(f'shapes {rate} {seconds}'))
-
-    def call_service(self, seconds):
-        """The latencies of calls of the service `query`, one after the other."""
-        return Latencies.of_report(self.simulator.ask(f'service {seconds}'))
-
-    def raise_simulator(self, priority):
-        """Gives the simulator's thread realtime priority."""
-        self.simulator.ask(f'priority {priority}')
 
     def __enter__(self):
         return self

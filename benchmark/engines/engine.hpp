@@ -32,8 +32,6 @@ std::unique_ptr<Engine> make_ours();
 std::unique_ptr<Engine> make_ours_egl();
 /// The package's `cpu` picker: cluster boxes, outcodes, clipping in double precision, no OpenGL.
 std::unique_ptr<Engine> make_cpu();
-/// GL_FEEDBACK without clusters: outcodes of all vertices choose the faces that are drawn.
-std::unique_ptr<Engine> make_ours_no_clusters();
 /// The package's `select` picker, as in the paper: GL_SELECT, one name and one draw call for each
 /// face.
 std::unique_ptr<Engine> make_select_paper();
@@ -83,8 +81,6 @@ class Locator {
 
 /// The package: static contacts, the clearance up to kWhereLimit, and the placement.
 std::unique_ptr<Locator> make_our_locator();
-/// The same with the clearance without a limit.
-std::unique_ptr<Locator> make_our_unlimited_locator();
 /// The package: static contacts and the nearest 100 faces within kWhereLimit.
 std::unique_ptr<Locator> make_our_near_locator();
 /// FCL's AABB tree, refitted: the distance of a capsule.

@@ -108,15 +108,4 @@ void FclTool::query(const ToolWaypoint& tool, std::vector<std::uint32_t>& faces)
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
 }
 
-bool FclTool::touches(const ToolWaypoint& tool) const {
-  const fcl::CollisionRequestd request;  // asks for nothing but whether there is a contact
-  for (const auto& [geometry, pose] : place(tool)) {
-    fcl::CollisionResultd result;
-    fcl::collide(objects_->organ.get(), Eigen::Isometry3d::Identity(), geometry.get(), pose,
-                 request, result);
-    if (result.isCollision()) return true;
-  }
-  return false;
-}
-
 }  // namespace organ_collision::bench

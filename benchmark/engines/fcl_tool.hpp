@@ -11,7 +11,7 @@
 namespace organ_collision::bench {
 
 /// FCL's static query of a tool against an organ at rest. The trees of the organ and of the links'
-/// meshes are built once. Any number of threads may query at the same time.
+/// meshes are built once.
 class FclTool {
  public:
   /// `radius` [m] is that of the shaft.
@@ -20,8 +20,6 @@ class FclTool {
 
   /// Replaces `faces` by the sorted numbers of the faces that `tool` touches.
   void query(const ToolWaypoint& tool, std::vector<std::uint32_t>& faces) const;
-  /// Whether `tool` touches any face. Stops at the first one.
-  bool touches(const ToolWaypoint& tool) const;
 
  private:
   struct Objects;

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 #include "grasper.hpp"
 
@@ -58,17 +57,6 @@ ShaftAxis drawn_back(ShaftAxis axis) {
 
 }  // namespace
 
-MotionSet shaft_motions(const OrganSurface& organ, std::size_t count) {
-  const SceneScale scale(organ.face_count());
-  ToolMotions motions(organ, scale);
-  MotionSet set{scale.radius, {}, {}};
-  for (std::size_t i = 0; i < count; ++i) {
-    const ShaftMotion motion = motions.next(organ.vertices);
-    set.paths.push_back({{0.0, motion.start, {}}, {1.0, motion.end, {}}});
-  }
-  return set;
-}
-
 MotionSet grasper_motions(const OrganSurface& organ, std::size_t count) {
   SceneScale scale(organ.face_count());
   scale.tip_step = kTipStep;
@@ -82,20 +70,10 @@ MotionSet grasper_motions(const OrganSurface& organ, std::size_t count) {
   return set;
 }
 
-MotionSet motions_of(const std::string& tool, const OrganSurface& organ, std::size_t count) {
-  if (tool == "shaft") return shaft_motions(organ, count);
-  if (tool == "grasper") return grasper_motions(organ, count);
-  throw std::invalid_argument("the tool is '" + tool + "'; legal are shaft and grasper");
-}
-
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kRadiusOfLap = 0.04;    // [m]
-constexpr double kShaftRadius = 0.0015;  // [m]
-constexpr double kShaftLength = 0.12;    // [m] of the free shaft
-constexpr double kBallRadius = 0.005;    // [m]
-constexpr double kJaws = 0.024;          // [m] from the grasper's shaft to a point between its jaws
+constexpr double kRadiusOfLap = 0.04;  // [m]
 const Vector3d kTrocar(0.1, 0.06, 0.15);
 
 /// The height [m] at which a vertical line meets a face; -infinity if it does not.
@@ -116,50 +94,16 @@ double height_of(const OrganSurface& organ, double x, double y) {
   return height;
 }
 
-ToolPose place(HandTool tool, const Vector3d& tip) {
-  const Vector3d direction = (tip - kTrocar).normalized();
-  switch (tool) {
-    case HandTool::kShaft:
-      return {{tip - kShaftLength * direction, tip}};
-    case HandTool::kBall:
-      return {{tip, tip}, {Eigen::Isometry3d(Eigen::Translation3d(tip))}};
-    case HandTool::kGrasper: {
-      constexpr double kOpening = 0.3;  // [rad]
-      const ToolWaypoint grasper =
-          Grasper::place(0.0, {kTrocar, tip - kJaws * direction}, kOpening);
-      return {grasper.axis, grasper.links};
-    }
-    case HandTool::kTrocar:
-      break;
-  }
-  return {{kTrocar, tip}};
-}
-
 }  // namespace
 
-ProxyTool make_proxy_tool(HandTool tool) {
-  switch (tool) {
-    case HandTool::kShaft:
-      return {kShaftRadius, {}, ProxyFreedom::kFree};
-    case HandTool::kBall:
-      return {
-          0.0, {{"ball", {LinkPart::sphere(Vector3d::Zero(), kBallRadius)}}}, ProxyFreedom::kFree};
-    case HandTool::kGrasper:
-      return {Grasper::kRadius, Grasper::make_links(), ProxyFreedom::kFree};
-    case HandTool::kTrocar:
-      break;
-  }
-  return {kShaftRadius, {}, ProxyFreedom::kTrocar};
-}
-
 // The path is the same for all meshes: it follows the coarsest one.
-std::vector<ToolPose> sliding_lap(HandTool tool, double depth) {
+std::vector<ToolPose> sliding_lap(double depth) {
   const OrganSurface organ = WavingOrgan(1224).middle();
   std::vector<ToolPose> lap;
   for (std::size_t i = 0; i < kLap; ++i) {
     const double around = 2.0 * kPi * static_cast<double>(i) / kLap;
     const double x = kRadiusOfLap * std::cos(around), y = kRadiusOfLap * std::sin(around);
-    lap.push_back(place(tool, {x, y, height_of(organ, x, y) - depth}));
+    lap.push_back({{kTrocar, {x, y, height_of(organ, x, y) - depth}}});
   }
   return lap;
 }

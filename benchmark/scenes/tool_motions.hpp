@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <random>
-#include <string>
 #include <vector>
 
 #include "organ_collision/geometry/tool/link.hpp"
@@ -50,32 +49,14 @@ struct MotionSet {
   std::vector<ToolPath> paths;
 };
 
-/// A shaft that pierces the organ. Its radius and motion are those of SceneScale.
-MotionSet shaft_motions(const OrganSurface& organ, std::size_t count);
-
 /// The Grasper, of the same size for each organ. Its shaft ends above the organ, and its jaws reach
 /// into it. In a motion it moves sideways by 1 mm, and each jaw closes by 0.02 rad.
 MotionSet grasper_motions(const OrganSurface& organ, std::size_t count);
 
-/// The motions of the tool "shaft" or "grasper". Throws std::invalid_argument for any other.
-MotionSet motions_of(const std::string& tool, const OrganSurface& organ, std::size_t count);
-
-/// What the hand holds.
-enum class HandTool {
-  kTrocar,  ///< a shaft of 3 mm diameter through a trocar above the organ
-  kShaft,   ///< the same shaft, free
-  kBall,    ///< a free ball of 10 mm diameter
-  kGrasper  ///< a free Grasper
-};
-
-/// The tool for a HapticProxy.
-ProxyTool make_proxy_tool(HandTool tool);
-
 /// One lap of a hand, a pose for each tick of 1 ms. The hand goes around a circle of 8 cm diameter,
-/// seen from above, at 0.25 to 0.3 m/s. Its tip (of the ball its centre, of the grasper a point
-/// between the jaws) stays `depth` [m] below the top of a WavingOrgan's middle shape; a negative
-/// depth is a height above it.
-std::vector<ToolPose> sliding_lap(HandTool tool, double depth);
+/// seen from above, at 0.25 to 0.3 m/s. Its shaft goes through a trocar above the organ, and its
+/// tip stays `depth` [m] below the top of a WavingOrgan's middle shape.
+std::vector<ToolPose> sliding_lap(double depth);
 
 /// The number of poses of a lap: a multiple of WavingOrgan::kPeriod, so that a lap repeats itself.
 constexpr std::size_t kLap = 1000;

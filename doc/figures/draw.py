@@ -13,9 +13,8 @@ import sys
 
 import style
 
-FIGURES = ['first_scene', 'touch', 'static_swept', 'fast_sweep', 'tool_frames', 'pose_times',
-           'words', 'wedge', 'margins', 'outcodes', 'first_touch', 'closest_approach', 'chord_deviation',
-           'swept_box', 'spans', 'distances', 'piercing', 'winding', 'sides', 'mobility', 'work', 'proxy']
+FIGURES = ['first_scene', 'touch', 'fast_sweep', 'tool_frames', 'pose_times', 'words', 'wedge', 'first_touch', 'spans',
+           'distances', 'sides', 'mobility', 'proxy']
 
 
 def main():

@@ -5,7 +5,6 @@ of 12 pixels. save() refuses smaller ones.
 """
 
 import io
-import math
 import re
 
 import matplotlib
@@ -52,12 +51,6 @@ def arrow(axes, start, end, color=TEXT, style='-|>', width=1.2):
 
 def label(axes, place, text, color=TEXT, **options):
     axes.text(place[0], place[1], text, color=color, **options)
-
-
-def power_of_ten(value, _=None):
-    """For axes.xaxis.set_major_formatter(): the exponent is as large as the other texts."""
-    exponent = round(math.log10(value))
-    return '10' + str(exponent).translate(str.maketrans('-0123456789', '⁻⁰¹²³⁴⁵⁶⁷⁸⁹'))
 
 
 def check_texts(file, svg):

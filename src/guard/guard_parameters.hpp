@@ -36,10 +36,10 @@ struct GuardParameters {
 /// live: the guard alone must not change them.
 inline ParameterTable table_of(GuardParameters& p) {
   ParameterTable t;
+  t.refuse("error", "has the name ~stop_distance now");
   t.other(
       "tools", "all tools of the node",
       [&p](const ParameterGroup& all) {
-        if (all.has("error")) throw ParameterError("~error has the name ~stop_distance now");
         if (all.has("tools")) p.tools = all.texts("tools");
       },
       "names of the tools that are guarded. Each must have a margin");

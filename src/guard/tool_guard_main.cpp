@@ -14,8 +14,8 @@
 #include <set>
 #include <utility>
 
-#include "common/messages/checked_messages.hpp"
 #include "common/messages/conversions.hpp"
+#include "common/messages/failure_log.hpp"
 #include "common/program/program.hpp"
 #include "geometry/concatenate.hpp"
 #include "organ_collision/ros/names.hpp"
@@ -50,8 +50,8 @@ ProgramHelp tool_guard_help() {
        "how fast a tool may go on, and why: at each answer about it, and without answers 50 times "
        "a second"},
       {"/diagnostics", message_type<diagnostic_msgs::DiagnosticArray>(),
-       "for each tool its speed_scale, and why it stops; lost and unreadable answers; names in "
-       "keep and touch_allowed that no organ has"}};
+       "for each tool its speed_scale, and why it stops; lost answers; names in keep and "
+       "touch_allowed that no organ has"}};
   help.services = {LiveParameters::help()};
   help.parameters = parameter_help<GuardParameters>();
   help.further = "doc/guard.md explains what it guarantees, and what it does not.";
@@ -85,14 +85,14 @@ class GuardNode {
       tools_.try_emplace(tool, parameters_, info);
     }
     states_ = private_node_.advertise<GuardState>(kState, 100);
-    answers_ = subscribe_checked<ContactArray>(
-        node_, ros::names::append(collision_node_, names::kContacts), kAnswerQueue,
-        [this](const auto& event) { take(event); }, rejected_);
+    const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
+    answers_ = node_.subscribe<ContactArray, const Answer&>(
+        ros::names::append(collision_node_, names::kContacts), kAnswerQueue,
+        [this](const Answer& answer) { take(answer); }, {}, hints);
     for (const bool resting : {false, true}) {
-      tf_.push_back(subscribe_checked<tf2_msgs::TFMessage>(
-          node_, resting ? "/tf_static" : "/tf", kAnswerQueue,
-          [this, resting](const auto& event) { take(*event.getConstMessage(), resting); },
-          rejected_));
+      tf_.push_back(node_.subscribe<tf2_msgs::TFMessage>(
+          resting ? "/tf_static" : "/tf", kAnswerQueue,
+          [this, resting](const auto& message) { take(*message, resting); }, {}, hints));
     }
     diagnostics_.tasks().add("tools", this, &GuardNode::diagnose);
     live_parameters_.advertise();
@@ -122,7 +122,9 @@ class GuardNode {
     GuardState last = {};  ///< and which
   };
 
-  void take(const ros::MessageEvent<const ContactArray>& event) {
+  using Answer = ros::MessageEvent<const ContactArray>;
+
+  void take(const Answer& event) {
     const ContactArray::ConstPtr& answer = event.getConstMessage();
     const auto tool = tools_.find(answer->tool);
     const GuardTime now = present();

@@ -1,11 +1,11 @@
 #include <pluginlib/class_list_macros.hpp>
 
-#include "common/program/restarting_nodelet.hpp"
+#include "common/program/threaded_nodelet.hpp"
 #include "haptic_proxy.hpp"
 
 namespace organ_collision {
 
-using HapticProxyNodelet = RestartingNodelet<run_haptic_proxy>;
+using HapticProxyNodelet = ThreadedNodelet<run_haptic_proxy>;
 
 }  // namespace organ_collision
 

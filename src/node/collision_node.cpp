@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <boost/make_shared.hpp>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <set>
@@ -44,7 +43,6 @@ class CollisionNode final : public OrganNode {
 
  private:
   void publish(const ToolStep& step);
-  void watch_ends(const ToolStep& step);
   void report(const OrganUpdate& update);
   void publish_failure(const std::string& organ, const std_msgs::Header& header,
                        std::uint8_t status, const std::string& message);
@@ -56,7 +54,6 @@ class CollisionNode final : public OrganNode {
   NodeCounters counters_;
   ros::Publisher contacts_, touch_events_, grasps_;
   TouchTracker touches_;
-  std::vector<SwapWatch> swaps_;  ///< of each tool
   MarkerPublisher markers_;
   CollisionPipeline pipeline_;
   QueryServices services_;
@@ -74,7 +71,6 @@ CollisionNode::CollisionNode(NodeCore& core, const NodeParameters& parameters)
       grasps_(core.private_node().advertise<Grasp>(names::kGrasps, kTouchQueue)),
       touches_([this](const TouchEvent& event) { touch_events_.publish(event); },
                [this](const Grasp& event) { grasps_.publish(event); }),
-      swaps_(core.tools().size()),
       markers_(core.private_node(), parameters.markers, core.tools()),
       pipeline_(parameters, core.tools(), counters_.rejected,
                 {[this](const ToolStep& step) { publish(step); },
@@ -108,8 +104,6 @@ void CollisionNode::handle(SteadyTime now) {
 
 std::optional<SteadyTime> CollisionNode::work() {
   pipeline_.steps.evaluate(core_.loop().heard_until());
-  const auto report = pipeline_.steps.load().take_report();
-  if (report) counters_.late.add("falls behind", *report);
   markers_.update(pipeline_.inbox.organs, pipeline_.steps.history());
   return pipeline_.steps.next_deadline();
 }
@@ -123,7 +117,6 @@ std::function<void()> CollisionNode::prepare_tools(std::vector<Tool>& tools, con
   return [this, streams = pipeline_.inbox.motion.subscribe_for(tools, core_.node())]() mutable {
     pipeline_.steps.follow_histories();
     markers_.set_tools(core_.tools());
-    swaps_.assign(core_.tools().size(), {});
     pipeline_.inbox.motion.change_tools(streams, core_.tools());
   };
 }
@@ -164,20 +157,6 @@ void CollisionNode::publish(const ToolStep& step) {
   touches_.follow(step, core_.loop().now(), parameters_.grasp_hold_sec);
   ++counters_.published;
   markers_.add(step);
-  if (answer.status == ContactArray::OK && step.moves) watch_ends(step);
-}
-
-/// Warns if trocar and tip of a tool seem to be swapped. If one body carries both, as with a
-/// pointer, either may move more.
-void CollisionNode::watch_ends(const ToolStep& step) {
-  const ToolParameters& tool = core_.tools()[step.tool].parameters;
-  const auto doubt =
-      swaps_[step.tool].follow(tool, step.question.sampled.path, std::chrono::steady_clock::now());
-  if (!doubt) return;
-  const TransformBuffer& transforms = pipeline_.inbox.transforms;
-  const bool is_one_body =
-      transforms.carrier(tool.trocar_frame) == transforms.carrier(tool.tip_frame);
-  if (!is_one_body) ROS_WARN("%s", doubt->c_str());
 }
 
 /// Counts an accepted shape. If the message brought no shape, publishes for each tool why.

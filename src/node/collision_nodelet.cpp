@@ -1,11 +1,11 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "collision_node.hpp"
-#include "common/program/restarting_nodelet.hpp"
+#include "common/program/threaded_nodelet.hpp"
 
 namespace organ_collision {
 
-using CollisionNodelet = RestartingNodelet<run_collision_node>;
+using CollisionNodelet = ThreadedNodelet<run_collision_node>;
 
 }  // namespace organ_collision
 

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <chrono>
 
-#include "common/messages/checked_messages.hpp"
 #include "common/messages/robot_reply.hpp"
 #include "common/messages/text.hpp"
 #include "organ_collision/ros/names.hpp"
@@ -163,22 +162,25 @@ void NodeCore::start(OrganNode& node) {
   warn_of_settings(tools_, parameters_.misspelt);
   diagnostics().add("scheduling", &realtime_, &Realtime::diagnose);
   live_parameters_.advertise();
+  using std_srvs::Empty, std_srvs::Trigger;
+  const auto on_reload = [this](auto&, auto& response) {
+    reload(response);
+    return true;
+  };
+  const auto on_reset = [&node](auto&, auto&) {
+    node.its_inbox().begin_history("reset");
+    return true;
+  };
+  const auto on_list = [this](auto&, auto& response) {
+    for (const Tool& tool : tools_) response.tools.push_back(info_of(tool));
+    return true;
+  };
   servers_ = {
-      advertise_checked<std_srvs::Trigger>(on_queue(private_node_, background_),
-                                           names::kReloadTools,
-                                           [this](auto&, auto& response) {
-                                             reload(response);
-                                             return true;
-                                           }),
-      advertise_checked<std_srvs::Empty>(private_node_, names::kReset,
-                                         [&node](auto&, auto&) {
-                                           node.its_inbox().begin_history("reset");
-                                           return true;
-                                         }),
-      advertise_checked<ListTools>(private_node_, names::kListTools, [this](auto&, auto& response) {
-        for (const Tool& tool : tools_) response.tools.push_back(info_of(tool));
-        return true;
-      })};
+      on_queue(private_node_, background_)
+          .advertiseService<Trigger::Request, Trigger::Response>(names::kReloadTools, on_reload),
+      private_node_.advertiseService<Empty::Request, Empty::Response>(names::kReset, on_reset),
+      private_node_.advertiseService<ListTools::Request, ListTools::Response>(names::kListTools,
+                                                                              on_list)};
   node.start();
 }
 

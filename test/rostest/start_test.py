@@ -25,8 +25,7 @@ from support.tool_over_sheet import RADIUS, SHEET, at_height, depth_at
 TOOL = {'name': 'grasper', 'trocar_frame': 'grasper_trocar', 'tip_frame': 'grasper_tip', 'radius': 0.005}
 MISSING_GL = os.path.join(roslib.packages.get_pkg_dir('organ_collision'), 'test/data/missing_gl')
 PRIORITY = 7
-REALTIME = {'tools': [], 'diagnostic_period_sec': 0.1, 'realtime_priority': PRIORITY, 'lock_memory': True,
-            'awake_cores': True}
+REALTIME = {'tools': [], 'diagnostic_period_sec': 0.1, 'realtime_priority': PRIORITY, 'lock_memory': True}
 # Runs a command without the right to real-time scheduling and locked memory. Only root has the capabilities.
 WITHOUT_RIGHTS = ['prlimit', '--rtprio=0:0', '--memlock=65536:65536'] + (
     ['setpriv', '--bounding-set', '-sys_nice,-ipc_lock'] if os.geteuid() == 0 else [])
@@ -45,16 +44,6 @@ def realtime_threads(process):
 def locked_kilobytes(process):
     with open('/proc/%d/status' % process, encoding='utf-8') as status:
         return next(int(line.split()[1]) for line in status if line.startswith('VmLck:'))
-
-
-def keeps_cores_awake(process):
-    def target(name):
-        try:
-            return os.readlink('/proc/%d/fd/%s' % (process, name))
-        except FileNotFoundError:  # It was closed since the list was made.
-            return ''
-
-    return any(target(name) == '/dev/cpu_dma_latency' for name in os.listdir('/proc/%d/fd' % process))
 
 
 class StartTest(ContactCase, NodeStarter):
@@ -186,7 +175,7 @@ class StartTest(ContactCase, NodeStarter):
         for name, program in (('/fast_node', 'organ_collision_node'), ('/fast_proxy', 'haptic_proxy')):
             process = self.start(name, REALTIME, program)
             level, values = self.scheduling(name)
-            granted, is_awake = realtime_threads(process.pid), keeps_cores_awake(process.pid)
+            granted = realtime_threads(process.pid)
             self.assertEqual(values['scheduling'], 'SCHED_FIFO, priority %d' % PRIORITY if granted else 'ordinary')
             if granted:
                 self.assertIn(process.pid, granted)  # The main thread, which does the steps.
@@ -194,9 +183,7 @@ class StartTest(ContactCase, NodeStarter):
                               range(1 + THREADS_OF_ROSCPP, len(os.listdir('/proc/%d/task' % process.pid))))
             has_locked = float(values['locked memory of the process [MiB]']) > 0.0
             self.assertEqual(has_locked, locked_kilobytes(process.pid) > 0)
-            self.assertEqual(values.get('idle cores') == 'awake', is_awake)
-            is_whole = bool(granted) and has_locked and is_awake
-            self.assertEqual(level, DiagnosticStatus.OK if is_whole else DiagnosticStatus.WARN)
+            self.assertEqual(level, DiagnosticStatus.OK if granted and has_locked else DiagnosticStatus.WARN)
             self.stop(process)
 
     def test_real_time_without_rights(self):
@@ -217,7 +204,6 @@ class StartTest(ContactCase, NodeStarter):
         self.assertEqual(bool(granted), values['scheduling'].startswith('SCHED_FIFO'))
         self.assertNotIn(manager, granted)
         self.assertEqual(locked_kilobytes(manager), 0)
-        self.assertFalse(keeps_cores_awake(manager))
 
     def test_exit_codes_of_check_contacts(self):
         """By the answers on its topics: good, bad, and none."""

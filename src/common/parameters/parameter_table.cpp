@@ -10,8 +10,6 @@
 #include <iterator>
 #include <sstream>
 
-#include "common/messages/checked_messages.hpp"
-
 namespace organ_collision {
 namespace {
 
@@ -134,6 +132,9 @@ ParameterGroup ParameterTable::group(const XmlRpcValue& private_namespace) const
 void ParameterTable::read(const XmlRpcValue& private_namespace,
                           std::vector<std::string>& misspelt) const {
   const ParameterGroup all = group(private_namespace);
+  for (const auto& [name, what_now] : refused_) {
+    if (all.has(name)) throw ParameterError("~" + name + " " + what_now);
+  }
   misspelt = all.misspelt();
   for (const Row& row : rows_) row.read(all);
 }
@@ -186,9 +187,7 @@ void LiveParameters::advertise() {
   updates_ = private_node_.advertise<Config>("parameter_updates", 1, true);
   descriptions_.publish(description(parameters_));
   publish();
-  server_ = advertise_checked<Service>(
-      private_node_, help().name,
-      [this](auto& request, auto& response) { return on_set(request, response); });
+  server_ = private_node_.advertiseService(help().name, &LiveParameters::on_set, this);
 }
 
 void LiveParameters::publish() { updates_.publish(present(parameters_)); }

@@ -99,11 +99,18 @@ class ParameterTable {
         .list = read;
   }
 
+  /// Refuses a name that a parameter had before. `what_now`: the rest of the sentence, for example
+  /// "is gone".
+  void refuse(const std::string& name, const std::string& what_now) {
+    refused_.emplace_back(name, what_now);
+  }
+
   /// The node's parameters as a group. Names that have no row count as misspelt. Throws
   /// ParameterError if `private_namespace` is no group.
   ParameterGroup group(const XmlRpc::XmlRpcValue& private_namespace) const;
   /// Reads all parameters. A missing parameter keeps its value. `misspelt` gets a sentence for each
-  /// unknown name. Throws ParameterError if a value is illegal or a required parameter is missing.
+  /// unknown name. Throws ParameterError if a value is illegal, a required parameter is missing or
+  /// a name is refused.
   void read(const XmlRpc::XmlRpcValue& private_namespace, std::vector<std::string>& misspelt) const;
   /// Applies changes while the node runs. Throws ParameterError, and changes nothing, if a value is
   /// illegal, or if a parameter cannot be changed then.
@@ -120,6 +127,7 @@ class ParameterTable {
 
  private:
   std::vector<Row> rows_;
+  std::vector<std::pair<std::string, std::string>> refused_;
 };
 
 /// Reads the parameters of a node from the parameter server into `parameters`, which must have

@@ -8,9 +8,9 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 
 namespace organ_collision {
 namespace {
@@ -70,16 +70,6 @@ std::string lock_memory() {
   return is_locked ? std::string() : std::strerror(errno);
 }
 
-/// Keeps all cores of the machine awake while `request`, Linux's PM QoS interface, stays open. A
-/// core that slept wakes late, and deep idle states empty its caches. Returns an empty text, or why
-/// the system refused.
-std::string keep_cores_awake(std::fstream& request) {
-  constexpr std::int32_t kLongestWaking = 0;  // [us]
-  request.open("/dev/cpu_dma_latency", std::ios::in | std::ios::out | std::ios::binary);
-  request.write(reinterpret_cast<const char*>(&kLongestWaking), sizeof kLongestWaking).flush();
-  return request ? std::string() : std::strerror(errno);
-}
-
 }  // namespace
 
 std::string make_this_thread_realtime(int priority) {
@@ -110,10 +100,6 @@ Realtime::Realtime(const RealtimeParameters& parameters) : parameters_(parameter
   if (parameters.lock_memory) {
     note("lock_memory", lock_memory(), " without it. Set the user's limit memlock to unlimited");
   }
-  if (parameters.awake_cores) {
-    note("awake_cores", keep_cores_awake(awake_cores_),
-         ", and idle cores sleep. Permit this user to write to /dev/cpu_dma_latency");
-  }
 }
 
 void Realtime::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
@@ -124,7 +110,6 @@ void Realtime::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   if (parameters_.lock_memory) {  // Shown only then, because reading it takes time.
     status.add("locked memory of the process [MiB]", locked_memory());
   }
-  if (awake_cores_.is_open() && awake_cores_) status.add("idle cores", "awake");
   for (const std::string& refusal : refusals_) status.mergeSummary(DiagnosticStatus::WARN, refusal);
 }
 

@@ -3,7 +3,6 @@
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
 #include <ros/node_handle.h>
 
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -29,7 +28,6 @@ void yield_to_all_threads();
 struct RealtimeParameters {
   int priority = 0;          ///< priority under SCHED_FIFO, from 1 to 99; 0: ordinary scheduling
   bool lock_memory = false;  ///< true: the memory of the process stays in RAM
-  bool awake_cores = false;  ///< true: no core of the machine sleeps while the node runs
 };
 
 /// Asks the system for what the parameters name. Where the system refuses, the node goes on as
@@ -44,7 +42,6 @@ class Realtime {
 
  private:
   RealtimeParameters parameters_;
-  std::fstream awake_cores_;
   std::vector<std::string> refusals_;  ///< sentences, each with what to do about it
 };
 

@@ -8,7 +8,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "common/messages/checked_messages.hpp"
 #include "common/messages/text.hpp"
 #include "common/threads/queues.hpp"
 #include "geometry/concatenate.hpp"
@@ -79,14 +78,15 @@ MotionTopics::MotionTopics(const std::vector<ToolParameters>& tools, TransformBu
   }
 }
 
-void MotionTopics::subscribe(const ros::NodeHandle& node) {
+void MotionTopics::subscribe(ros::NodeHandle node) {
+  using Event = ros::MessageEvent<const tf2_msgs::TFMessage>;
   for (const bool resting : {false, true}) {
-    tf_.push_back(subscribe_checked<tf2_msgs::TFMessage>(
-        node, resting ? "/tf_static" : "/tf", kTransformQueue,
-        [this, resting](const auto& event) {
-          take_transforms(*event.getConstMessage(), event.getPublisherName(), resting);
-        },
-        rejected_));
+    const auto on_transforms = [this, resting](const Event& event) {
+      take_transforms(*event.getConstMessage(), event.getPublisherName(), resting);
+    };
+    tf_.push_back(node.subscribe<tf2_msgs::TFMessage, const Event&>(
+        resting ? "/tf_static" : "/tf", kTransformQueue, on_transforms, {},
+        ros::TransportHints().tcpNoDelay()));
   }
   for (const auto& stream : streams_) subscribe(*stream, node);
 }

@@ -34,7 +34,7 @@ class MotionTopics {
   MotionTopics(const MotionTopics&) = delete;  ///< The subscriptions refer to this.
 
   /// Subscribes to TF and to the topics that the tools name; `node` resolves their names.
-  void subscribe(const ros::NodeHandle& node);
+  void subscribe(ros::NodeHandle node);
   struct Stream;
   /// The streams by tool. Subscriptions refer to streams, so their addresses must not change.
   using Streams = std::vector<std::shared_ptr<Stream>>;

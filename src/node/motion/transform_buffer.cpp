@@ -144,13 +144,6 @@ bool TransformBuffer::has_heard(const std::string& frame) const {
   return known && !known->stamps.empty();
 }
 
-std::string TransformBuffer::carrier(const std::string& frame) const {
-  for (const Frame* const above : upward(frame, 1)) {
-    if (!above->stamps.empty()) return above->name;
-  }
-  return "";
-}
-
 FrameJoints TransformBuffer::joints(const std::string& target, const std::string& frame,
                                     ros::Time time) const {
   Nodes above_target = upward_at(target, time), above_frame = upward_at(frame, time);

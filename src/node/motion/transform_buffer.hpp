@@ -55,9 +55,6 @@ class TransformBuffer : public tf2::BufferCore {
   ros::Time latest() const { return latest_; }
   /// Whether the record has a transform of this frame. Static transforms are not recorded.
   bool has_heard(const std::string& frame) const;
-  /// The frame that carries `frame`: itself, or the nearest frame above it that is not on static
-  /// transforms alone. Empty if there is none: then `frame` rests.
-  std::string carrier(const std::string& frame) const;
   /// The joints between two frames at a time at which their transform is known.
   FrameJoints joints(const std::string& target, const std::string& frame, ros::Time time) const;
   /// Notes why the last pose of a frame was refused; empty: it was taken.

@@ -9,7 +9,6 @@
 #include <memory>
 #include <utility>
 
-#include "common/messages/checked_messages.hpp"
 #include "common/threads/queues.hpp"
 #include "organ_collision/ros/names.hpp"
 
@@ -44,23 +43,23 @@ bool is_replaced(const OrganMessage& message, const OrganMessage& next) {
 }  // namespace
 
 void OrganIntake::subscribe(ros::NodeHandle private_node) {
-  subscribers_ = {
-      subscribe_checked<OrganMesh>(
-          private_node, names::kOrganMesh, kOrganQueue,
-          [this](const auto& event) {
-            const OrganMeshConstPtr& message = event.getConstMessage();
-            counts_.lost += lost_before(meshes_, event.getPublisherName(), message->header.seq);
-            take_mesh(message, event.getConnectionHeaderPtr());
-          },
-          rejected_),
-      subscribe_checked<OrganVertices>(
-          private_node, names::kOrganVertices, kOrganQueue,
-          [this](const auto& event) {
-            const OrganVerticesConstPtr& message = event.getConstMessage();
-            counts_.lost += lost_before(vertices_, event.getPublisherName(), message->header.seq);
-            take_vertices(message, event.getConnectionHeaderPtr());
-          },
-          rejected_)};
+  using MeshEvent = ros::MessageEvent<const OrganMesh>;
+  using VerticesEvent = ros::MessageEvent<const OrganVertices>;
+  const auto on_mesh = [this](const MeshEvent& event) {
+    const OrganMeshConstPtr& message = event.getConstMessage();
+    counts_.lost += lost_before(meshes_, event.getPublisherName(), message->header.seq);
+    take_mesh(message, event.getConnectionHeaderPtr());
+  };
+  const auto on_vertices = [this](const VerticesEvent& event) {
+    const OrganVerticesConstPtr& message = event.getConstMessage();
+    counts_.lost += lost_before(vertices_, event.getPublisherName(), message->header.seq);
+    take_vertices(message, event.getConnectionHeaderPtr());
+  };
+  const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
+  subscribers_ = {private_node.subscribe<OrganMesh, const MeshEvent&>(
+                      names::kOrganMesh, kOrganQueue, on_mesh, {}, hints),
+                  private_node.subscribe<OrganVertices, const VerticesEvent&>(
+                      names::kOrganVertices, kOrganQueue, on_vertices, {}, hints)};
   services_ = {private_node.advertiseService(names::kRemoveOrgan, &OrganIntake::on_remove, this),
                on_queue(private_node, threads_->inspector)
                    .advertiseService(names::kListOrgans, &OrganIntake::on_list, this)};

@@ -328,8 +328,8 @@ void add_common_rows(ParameterTable& t, OrganNodeParameters& p, const std::strin
       "1 to 99: " + threads +
           " under SCHED_FIFO with this priority, before ordinary programs. 0: ordinary scheduling");
   t.flag("lock_memory", p.realtime.lock_memory, "true: all memory of the process stays in RAM");
-  t.flag("awake_cores", p.realtime.awake_cores,
-         "true: no core of the machine sleeps while the node runs");
+  t.refuse("awake_cores",
+           "is gone; no core sleeps while a program of yours holds /dev/cpu_dma_latency open");
 }
 
 }  // namespace organ_collision

@@ -141,7 +141,6 @@ void show_queries(const std::vector<std::string>& misspelt, const CollisionPipel
   }
   show_failures("unanswered", counters.failed, status);
   show_failures("answered in part", counters.incomplete, status);
-  show_failures("answered late", counters.late, status);
   show_failures("refused", counters.refused, status);
 }
 

@@ -71,7 +71,6 @@ struct NodeCounters {
   FailureLog doubted;                     ///< poses that are probably not in metres
   FailureLog failed;                      ///< steps without an answer
   FailureLog incomplete;                  ///< answered steps whose path is not wholly known
-  FailureLog late;                        ///< periods in which the node fell behind (LoadWatch)
   FailureLog refused;                     ///< service calls, and motions of batches, that failed
 };
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "common/messages/checked_messages.hpp"
 #include "common/messages/text.hpp"
 #include "organ_collision/ros/names.hpp"
 #include "query_request.hpp"
@@ -59,8 +58,7 @@ QueryServices::QueryServices(const NodeState& node, InNodeThread in_node_thread,
       counters_(counters),
       query_(node.parameters.picker) {}
 
-void QueryServices::advertise(const ros::NodeHandle& query_node,
-                              const ros::NodeHandle& batch_node) {
+void QueryServices::advertise(ros::NodeHandle query_node, ros::NodeHandle batch_node) {
   const auto on_query = [this](const auto& request, auto& response) {
     response.result = query(request);
     count_failure(counters_.refused, response.result.status, response.result.message);
@@ -80,8 +78,10 @@ void QueryServices::advertise(const ros::NodeHandle& query_node,
     }
     return true;
   };
-  servers_ = {advertise_checked<QueryCollision>(query_node, names::kQuery, on_query),
-              advertise_checked<QueryCollisionBatch>(batch_node, names::kQueryBatch, on_batch)};
+  servers_ = {query_node.advertiseService<QueryCollision::Request, QueryCollision::Response>(
+                  names::kQuery, on_query),
+              batch_node.advertiseService<Batch, QueryCollisionBatch::Response>(names::kQueryBatch,
+                                                                                on_batch)};
 }
 
 /// Makes the threads that answer batches, if there are none yet. The calling thread is one of them

@@ -25,7 +25,7 @@ class QueryServices {
   QueryServices(const NodeState& node, InNodeThread in_node_thread, NodeCounters& counters);
 
   /// Each node handle must have a callback queue with a thread of its own.
-  void advertise(const ros::NodeHandle& query_node, const ros::NodeHandle& batch_node);
+  void advertise(ros::NodeHandle query_node, ros::NodeHandle batch_node);
   /// Makes the present batch and all later ones end soon, without results. Any thread may call it.
   void end() { ended_ = true; }
 

@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <boost/make_shared.hpp>
-#include <cmath>
 
 #include "common/messages/text.hpp"
-#include "geometry/concatenate.hpp"
 
 namespace organ_collision {
 namespace {
@@ -31,55 +29,7 @@ void set_stamps(ToolStep& step, ros::Time end) {
   step.question.end = end;
 }
 
-double seconds(LoadWatch::Time from, LoadWatch::Time to) {
-  return std::chrono::duration<double>(to - from).count();
-}
-
-/// The tool and the organ of a step, and what makes its query long.
-std::string description(const ToolStep& step) {
-  const Question& question = step.question;
-  const QueryOptions& asked = question.asked;
-  const std::size_t legs = std::max<std::size_t>(question.sampled.path.size(), 2) - 1;
-  std::string text = concatenate("tool '", question.tool_name, "', organ '", question.organ, "' (",
-                                 question.shape.mesh->face_count(), " faces): ", legs, " legs");
-  const std::size_t links = question.tool->links.size();
-  if (links > 0) text += ", " + counted(links, "link");
-  if (asked.margin > 0.0) text += concatenate(", margin ", asked.margin);
-  if (asked.max_near > 0) text += concatenate(", max_near ", asked.max_near);
-  if (asked.placement) text += ", placement";
-  if (asked.regions) text += ", regions";
-  return text + concatenate("; ", step.answer->contacts.size(), " contacts");
-}
-
 }  // namespace
-
-void LoadWatch::add(const ToolStep& step) {
-  has_steps_ = true;
-  if (step.query_sec <= period_.slowest_sec) return;
-  period_.slowest_sec = step.query_sec;
-  period_.slowest = description(step);
-}
-
-void LoadWatch::add_round(Time begin, Time end, std::uint64_t merged) {
-  constexpr double kMost = 0.8;  // [1] a larger share of the time is most of it
-  if (!std::exchange(has_steps_, false)) return;
-  period_.busy_sec += seconds(begin, end);
-  period_.merged += merged - std::exchange(merged_, merged);
-  ++period_.rounds;
-  if (end - period_.begin < kPeriod) return;
-  const double share = period_.busy_sec / seconds(period_.begin, end);
-  is_behind_ = share > kMost && period_.merged >= period_.rounds;
-  if (is_behind_) {
-    report_ = concatenate("the node falls behind: steps take ", std::lround(100.0 * share),
-                          " % of the time, and ", period_.merged,
-                          " poses, ticks and shapes share a step with later ones; the slowest of ",
-                          period_.rounds, " rounds has a step of ", 1e3 * period_.slowest_sec,
-                          " ms: ", period_.slowest);
-  }
-  period_ = Period{end};
-}
-
-std::optional<std::string> LoadWatch::take_report() { return std::exchange(report_, std::nullopt); }
 
 StepWorkers::StepWorkers(const NodeParameters& parameters)
     : QueryThreads(thread_count(parameters.threads), parameters.picker,
@@ -113,8 +63,6 @@ void StepScheduler::add_pose(std::size_t tool) {
 }
 
 void StepScheduler::evaluate(SteadyTime now) {
-  const LoadWatch::Time begin = LoadWatch::Time::clock::now();
-  is_behind_ = load_.is_behind(begin);
   now_ = now;
   due_.clear();  // If an exception ended the last round, its steps are still there.
   follow_histories();
@@ -139,8 +87,6 @@ void StepScheduler::evaluate(SteadyTime now) {
     plan_long_steps();
     evaluate_due();
   }
-  load_.add_round(begin, LoadWatch::Time::clock::now(),
-                  counts_.poses_merged + counts_.ticks_merged + counts_.superseded);
 }
 
 /// Evaluates and publishes the steps that are due. Returns whether there were any.
@@ -366,12 +312,6 @@ void StepScheduler::answer(ToolStep& step, ContactQuery& query) const {
   question.follow(poses_, from, *step.end, ToolPoses::velocity_begin(last ? last->begin : end, end),
                   ros::Time::now());
   SampledPath& sampled = question.sampled;
-  if (is_behind_ && sampled.samples_cut > 0 && sampled.unknown.empty()) {
-    sampled.unknown = concatenate(
-        sampled.samples_cut,
-        " samples of the tool's motion were left out (motion_samples_max), because the node "
-        "falls behind");
-  }
   if (sampled.unknown.empty()) sampled.unknown = step.missed;
   CollisionRequest request = question.request(std::move(sampled.path));
   step.answer = boost::make_shared<ContactArray>(question.unanswered());
@@ -390,7 +330,6 @@ void StepScheduler::deliver(ToolStep& step) {
   counts_.picked.drawn += step.picked.drawn;
   counts_.picked.undrawn += step.picked.undrawn;
   if (step.answer->status == ContactArray::OK) {
-    load_.add(step);
     poses_.set_answered(tools_[step.tool], step.question.frame, step.end->stamp);
     const ros::Time end = step.end->stamp, begin = pair.last ? pair.last->begin : end;
     pair.last = LastStep{

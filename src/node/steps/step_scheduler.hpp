@@ -25,43 +25,6 @@ struct StepCounts {
   PickCounts picked;               ///< the faces that the steps looked at one by one
 };
 
-/// Notices when the steps of a node take so long that it falls behind its inputs: the poses, ticks
-/// and shapes for which steps are due. Their answers are right, but late.
-class LoadWatch {
- public:
-  using Time = std::chrono::steady_clock::time_point;
-  /// The watch looks at what happened in periods of at least this length.
-  static constexpr std::chrono::seconds kPeriod{1};
-
-  /// Notes a step that was answered.
-  void add(const ToolStep& step);
-  /// Notes the end of a round. A round without steps does not count. `merged`: how many inputs,
-  /// since the start, shared a step with a later one.
-  void add_round(Time begin, Time end, std::uint64_t merged);
-
-  /// Whether the node fell behind in the last period: steps took most of the time, and most inputs
-  /// shared a step with a later one.
-  bool is_behind(Time now) const { return is_behind_ && now - period_.begin < 2 * kPeriod; }
-  /// If a period in which the node fell behind has ended since the last call: what was slow.
-  std::optional<std::string> take_report();
-
- private:
-  /// What happened in one period.
-  struct Period {
-    Time begin;
-    double busy_sec = 0.0;
-    std::uint64_t rounds = 0, merged = 0;
-    double slowest_sec = 0.0;  ///< the longest query
-    std::string slowest = {};  ///< the tool and the organ of that query, and what was asked
-  };
-
-  Period period_;
-  bool has_steps_ = false;    ///< whether the present round has steps
-  std::uint64_t merged_ = 0;  ///< inputs that were merged before the present period
-  bool is_behind_ = false;
-  std::optional<std::string> report_;
-};
-
 /// Threads that evaluate steps side by side. The calling thread is one of these workers. There are
 /// as many workers as tools, or more if more steps are due at once, but at most `threads`. A new
 /// worker joins in when its GL context is made, after about 30 ms.
@@ -132,7 +95,6 @@ class StepScheduler {
 
   /// For /diagnostics.
   StepCounts counts() const;
-  LoadWatch& load() { return load_; }
 
  private:
   static std::vector<std::uint64_t> histories_of(const std::vector<Tool>& tools);
@@ -166,9 +128,7 @@ class StepScheduler {
   SteadyTime now_;           ///< the time of the last call of evaluate()
   SteadyTime next_lookout_;  ///< when to look again for steps that become too long
   bool keeps_all_shapes_ = false;
-  LoadWatch load_;
-  bool is_behind_ = false;  ///< whether the node fell behind before the present round
-  StepCounts counts_;       ///< except `forgotten` and `waiting`, which counts() computes
+  StepCounts counts_;  ///< except `forgotten` and `waiting`, which counts() computes
 };
 
 }  // namespace organ_collision

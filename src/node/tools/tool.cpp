@@ -184,30 +184,6 @@ std::string doubt_about_place(const ToolParameters& tool, const ShaftAxis& axis,
   return doubt_about_distance(tool.name, organ, farthest);
 }
 
-std::optional<std::string> SwapWatch::follow(const ToolParameters& tool, const ToolPath& path,
-                                             Time now) {
-  if (has_told_ || tool.freedom == ProxyFreedom::kFree) return std::nullopt;
-  double trocar = 0.0, tip = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    trocar += (path[i].axis.trocar - path[i - 1].axis.trocar).norm();
-    tip += (path[i].axis.tip - path[i - 1].axis.tip).norm();
-  }
-  const Time::duration passed = std::min<Time::duration>(now - last_, kPause);
-  last_ = now;
-  if (trocar == 0.0 && tip == 0.0) return std::nullopt;
-  moving_ += passed;
-  trocar_ += trocar;
-  tip_ += tip;
-  if (moving_ < kLongEnough) return std::nullopt;
-  has_told_ = trocar_ >= kFarEnough && trocar_ > 2.0 * tip_;
-  const std::string sentence =
-      concatenate("the trocar of tool '", tool.name, "' moves more than its tip: ", 1e3 * trocar_,
-                  " mm, and ", 1e3 * tip_, " mm; perhaps trocar_frame and tip_frame are swapped");
-  moving_ = {};
-  trocar_ = tip_ = 0.0;
-  return has_told_ ? std::optional(sentence) : std::nullopt;
-}
-
 ToolInfo info_of(const Tool& tool) {
   const ToolParameters& parameters = tool.parameters;
   ToolInfo info;

@@ -3,7 +3,6 @@
 #include <organ_collision/ToolInfo.h>
 #include <ros/node_handle.h>
 
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -42,28 +41,6 @@ std::string doubt_about_place(const ToolParameters& tool, const ShaftAxis& axis,
                               const std::vector<Eigen::Isometry3d>& links,
                               const Eigen::Isometry3d& T_organ_tool, const std::string& organ,
                               const Eigen::AlignedBox3f& box);
-
-/// Finds out whether trocar and tip of a shaft may be swapped: the trocar moves much, and the tip
-/// does not. Free tools and balls are never suspected.
-class SwapWatch {
- public:
-  using Time = std::chrono::steady_clock::time_point;
-
-  /// Follows a step of the tool. Once the tool has moved for kLongEnough and its trocar moved twice
-  /// as far as its tip, and at least kFarEnough, returns a sentence about this, once in all. `now`:
-  /// the time of the node's clock, not of the step.
-  std::optional<std::string> follow(const ToolParameters& tool, const ToolPath& path, Time now);
-
- private:
-  static constexpr std::chrono::seconds kLongEnough{3};
-  static constexpr std::chrono::milliseconds kPause{200};  ///< longer pauses count as so much
-  static constexpr double kFarEnough = 0.01;               ///< [m]
-
-  Time last_;                        ///< the time of the last step
-  Time::duration moving_{};          ///< for how long the tool has moved
-  double trocar_ = 0.0, tip_ = 0.0;  ///< [m] how far they have moved in this time
-  bool has_told_ = false;
-};
 
 /// What list_tools says of a tool.
 ToolInfo info_of(const Tool& tool);

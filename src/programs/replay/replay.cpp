@@ -9,7 +9,6 @@
 #include <chrono>
 #include <utility>
 
-#include "common/messages/checked_messages.hpp"
 #include "node/steps/question.hpp"
 #include "organ_collision/ros/names.hpp"
 
@@ -67,7 +66,7 @@ void Replay::handle(const std::string& topic, Handle handler) {
       topics_.emplace(topic, Topic{traits::datatype<Message>(), traits::md5sum<Message>()}).first;
   known->second.handlers.push_back(
       [handler = std::move(handler)](const rosbag::MessageInstance& instance) {
-        handler(boost::shared_ptr<const Message>(held_message<Message>(instance)), instance);
+        handler(boost::shared_ptr<const Message>(instance.instantiate<Message>()), instance);
       });
 }
 

@@ -99,6 +99,10 @@ TEST(NodeParameters, ToolsMustBeGivenAndHaveNamesOfTheirOwn) {
   EXPECT_TRUE(parse_parameters<NodeParameters>(none).tools.empty());
 }
 
+TEST(NodeParameters, NamesThatAreGoneAreRefused) {
+  expect_words(refusal_of<NodeParameters>("awake_cores", false), {"~awake_cores is gone"});
+}
+
 // Of a node they are reported. In a tool, one that has no effect might leave a default in force.
 TEST(NodeParameters, MisspeltKeysOfToolsAreRefused) {
   XmlRpcValue all = legal_parameters<NodeParameters>();

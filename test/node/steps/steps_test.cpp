@@ -18,7 +18,7 @@ namespace {
 
 constexpr auto kStatic = ContactArray::STATIC;
 constexpr auto kSwept = ContactArray::SWEPT;
-const Eigen::Vector3d kAbove{0.1, 0.2, 0.3}, kBelow{0.1, 0.2, -0.3};
+const Eigen::Vector3d kAbove{0.1, 0.2, 0.3}, kBeneath{0.1, 0.2, -0.3};
 
 std::vector<Tool> hook_and_needle() {
   std::vector<Tool> tools = {shaft_tool("hook", 0.01), shaft_tool("needle", 0.01)};
@@ -74,7 +74,7 @@ class ScriptedNode : public NodeParts {
   static double height(std::istream& arguments) {
     std::string word;
     arguments >> word;
-    return word == "up" ? kAbove.z() : word == "down" ? kBelow.z() : std::stod(word);
+    return word == "up" ? kAbove.z() : word == "down" ? kBeneath.z() : std::stod(word);
   }
 
   void do_command(const std::string& name, std::istream& arguments) {
@@ -419,7 +419,7 @@ TEST(StepScheduler, TheFirstMomentsOfAPairAreTold) {
 TEST(StepScheduler, AfterAChangeOfToolsAKeptToolSweepsOnAndANewOneIsStatic) {
   ScriptedNode node;
   node.play("tip 1 up; mesh 1 0; run; hook static 0 1 1; move 1.1 0; run; none");
-  set_point(node.transforms, "liver_frame", "needle_tip", 1.0, kBelow);
+  set_point(node.transforms, "liver_frame", "needle_tip", 1.0, kBeneath);
   node.tools = {shaft_tool("needle", 0.01), shaft_tool("hook", 0.01)};
   node.tools[0].history = 1;
   node.steps.follow_histories();
@@ -461,7 +461,7 @@ TEST(StepScheduler, StepsAskForWhatTheParametersSay) {
   EXPECT_EQ(measured.clearance.state, Clearance::KNOWN);
   EXPECT_NEAR(measured.clearance.distance, 0.02, 1e-9);
   EXPECT_EQ(measured.near.size(), 1u);
-  node.send_tip(1.1, kBelow);
+  node.send_tip(1.1, kBeneath);
   EXPECT_EQ(node.tick().at(0).placement.crossings.size(), 1u);
   node.parameters.publish_placement = false;
   EXPECT_TRUE(node.tick().at(0).placement.crossings.empty());

@@ -161,39 +161,6 @@ TEST(ToolLoader, FaultsBeginWithTheToolAndThrowNothing) {
   expect_fault(no_urdf, {"notes.txt", "no legal URDF"});
 }
 
-// One end moves on a circle of 5 cm, the other by a share of this. The tool rests now and then.
-TEST(SwapWatch, SuspectsATrocarThatMovesMoreThanTheTip) {
-  const auto told_after = [](ProxyFreedom freedom, double trocar_share, double tip_share) {
-    ToolParameters tool = shaft_tool("probe", 0.005).parameters;
-    tool.freedom = freedom;
-    SwapWatch watch;
-    std::vector<double> told;
-    const auto end = [](double share, double time) {
-      return Vector3d(0.05 * share * Vector3d(std::cos(time), std::sin(time), 0.0));
-    };
-    for (int i = 0; i < 60'000; ++i) {
-      const auto now = SwapWatch::Time() + std::chrono::milliseconds(1'000'000 + i);
-      const double time = i / 1000 % 2 == 0 ? 1e-3 * i : 0.0, next = time > 0.0 ? time + 1e-3 : 0.0;
-      const ToolPath path = {{0.0, {end(trocar_share, time), end(tip_share, time)}},
-                             {1.0, {end(trocar_share, next), end(tip_share, next)}}};
-      if (const auto sentence = watch.follow(tool, path, now)) {
-        told.push_back(1e-3 * i);
-        EXPECT_NE(sentence->find("'probe'"), std::string::npos) << *sentence;
-      }
-    }
-    return told;
-  };
-  const std::vector<double> swapped = told_after(ProxyFreedom::kTrocar, 1.0, 0.1);
-  ASSERT_EQ(swapped.size(), 1u) << "once";
-  EXPECT_GE(swapped[0], 3.0);
-  EXPECT_LE(swapped[0], 8.0);
-  EXPECT_TRUE(told_after(ProxyFreedom::kFree, 1.0, 0.1).empty());
-  EXPECT_TRUE(told_after(ProxyFreedom::kTrocar, 0.1, 1.0).empty());
-  EXPECT_TRUE(told_after(ProxyFreedom::kTrocar, 1.0, 0.9).empty()) << "the organ moves";
-  EXPECT_TRUE(told_after(ProxyFreedom::kTrocar, 1.0, 1.0).empty());
-  EXPECT_TRUE(told_after(ProxyFreedom::kTrocar, 0.01, 0.0).empty()) << "a trembling trocar";
-}
-
 TEST(ToolChanges, ToolsAreFoundByNameInAnyOrder) {
   const std::vector<Tool> before = {shaft_tool("hook", 0.01), grasper(), shaft_tool("saw", 0.02)};
   const std::vector<Tool> after = {shaft_tool("needle", 0.01), shaft_tool("saw", 0.03), grasper()};
