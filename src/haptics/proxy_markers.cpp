@@ -31,7 +31,7 @@ void add_loads(const ProxyView& view, MarkerArray& picture) {
   if (greatest == 0.0) return;
   for (const auto& [point, force] : loads) {
     add_arrow({"loads", view.frame, kLoad}, point - kLongest * view.size / greatest * force, point,
-              {}, picture);
+              picture);
   }
 }
 

@@ -104,7 +104,7 @@ void CollisionNode::handle(SteadyTime now) {
 
 std::optional<SteadyTime> CollisionNode::work() {
   pipeline_.steps.evaluate(core_.loop().heard_until());
-  markers_.update(pipeline_.inbox.organs, pipeline_.steps.history());
+  markers_.update(pipeline_.inbox.organs, pipeline_.steps.history(), counters_.query_times);
   return pipeline_.steps.next_deadline();
 }
 

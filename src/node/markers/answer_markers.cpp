@@ -19,19 +19,13 @@ const std_msgs::ColorRGBA kRegion = rgba(0.05F, 0.05F, 0.05F);
 const std_msgs::ColorRGBA kNormal = rgba(0.20F, 0.85F, 0.45F);
 const std_msgs::ColorRGBA kNearFace = rgba(0.35F, 0.85F, 0.95F, 0.80F);
 const std_msgs::ColorRGBA kClearance = rgba(0.35F, 0.95F, 1.00F);
-// The places where a shaft's axis enters and leaves an organ. Colour-blind people can tell these
-// colours apart, too.
-const std_msgs::ColorRGBA kEntering = rgba(1.00F, 0.65F, 0.10F);
-const std_msgs::ColorRGBA kLeaving = rgba(0.25F, 0.45F, 1.00F);
 
-// For each pair of organ and tool, only so many are drawn: the arrows of the deepest contacts, the
-// nearest faces, and the first crossings from the trocar.
+// For each pair of organ and tool, only so many are drawn: the arrows of the deepest contacts, and
+// the nearest faces.
 constexpr std::size_t kMostArrows = 30;
 constexpr std::size_t kMostNearFaces = 2000;
-constexpr std::size_t kMostCrossings = 100;
 
-// In the functions below, lengths are shares of the organ's size, and `share` is how visible
-// something is, in [0, 1].
+// In the functions below, lengths are shares of the organ's size.
 
 std::string rounded(const char* format, double value) {
   char text[64];
@@ -64,46 +58,35 @@ void add_regions(const SceneOrgan& organ, const ContactArray& answer, MarkerArra
 
 /// Adds an arrow for each of the deepest contacts. The arrow points along the contact's normal and
 /// ends at its end point.
-void add_normals(const SceneOrgan& organ, const ContactArray& answer, double share,
-                 MarkerArray& picture) {
+void add_normals(const SceneOrgan& organ, const ContactArray& answer, MarkerArray& picture) {
   constexpr double kLength = 0.07;
   std::vector<Contact> deepest(std::min(kMostArrows, answer.contacts.size()));
   std::partial_sort_copy(answer.contacts.begin(), answer.contacts.end(), deepest.begin(),
                          deepest.end(), is_deeper);
-  const MarkerStyle style{"normals", organ.frame, colours::faded(kNormal, share)};
   for (const Contact& contact : deepest) {
-    add_arrow(style, before(contact, kLength * organ.size()), before(contact, 0.0), {}, picture);
+    add_arrow({"normals", organ.frame, kNormal}, before(contact, kLength * organ.size()),
+              before(contact, 0.0), picture);
   }
 }
 
-/// Adds the name of each link that touches, at its deepest contact. Names near each other share a
-/// text, a line each, so that none hides another. A shaft has the name of its tool.
-void add_names(const SceneOrgan& organ, const ContactArray& answer, double share,
-               MarkerArray& picture) {
+/// Adds the name of each link that touches, at its deepest contact. A shaft has the name of its
+/// tool. Each name is higher than the one before, so that none hides another.
+void add_names(const SceneOrgan& organ, const ContactArray& answer, MarkerArray& picture) {
   constexpr double kDistance = 0.15;  // The distance of a name from its contact.
-  constexpr double kShared = 0.15;    // Names that are nearer to each other share a text.
+  constexpr double kRaise = 0.054;    // The height of a line of text.
   std::map<std::int32_t, const Contact*> by_link;
   for (const Contact& contact : answer.contacts) {
     const Contact*& known = by_link[contact.link];
     if (!known || is_deeper(contact, *known)) known = &contact;
   }
-  std::vector<std::pair<Vector3d, std::string>> texts;
+  double raise = 0.0;
   for (const auto& [link, contact] : by_link) {
-    const Vector3d place = before(*contact, kDistance * organ.size());
-    const auto is_near = [&](const auto& text) {
-      return (text.first - place).norm() < kShared * organ.size();
-    };
+    const Vector3d place = before(*contact, kDistance * organ.size()) + raise * Vector3d::UnitZ();
     const std::string& name =
         link == kShaft ? answer.tool : answer.links.at(static_cast<std::size_t>(link));
-    const auto text = std::find_if(texts.begin(), texts.end(), is_near);
-    if (text == texts.end()) {
-      texts.emplace_back(place, name);
-    } else {
-      text->second += "\n" + name;
-    }
+    add_text({"names", organ.frame, colours::kText}, place, organ.size(), name, picture);
+    raise += kRaise * organ.size();
   }
-  const MarkerStyle style{"names", organ.frame, colours::faded(colours::kText, share)};
-  for (const auto& [place, text] : texts) add_text(style, place, organ.size(), text, picture);
 }
 
 /// Adds the near faces, at their present place: the nearer, the more opaque.
@@ -112,9 +95,10 @@ void add_near_faces(const SceneOrgan& organ, const ContactArray& answer, MarkerA
   constexpr double kFaintest = 0.15;
   Marker faces = make_marker({"near", organ.frame, kNearFace}, Marker::TRIANGLE_LIST);
   for (std::size_t i = 0; i < std::min(answer.near.size(), kMostNearFaces); ++i) {
-    const double nearness =
-        std::clamp(1.0 + answer.near[i].depth / answer.clearance.margin, kFaintest, 1.0);
-    add_lifted_face(faces, organ, answer.near[i].face, colours::faded(kNearFace, nearness));
+    const double nearness = 1.0 + answer.near[i].depth / answer.clearance.margin;
+    std_msgs::ColorRGBA colour = kNearFace;
+    colour.a *= static_cast<float>(std::clamp(nearness, kFaintest, 1.0));
+    add_lifted_face(faces, organ, answer.near[i].face, colour);
   }
   add_marker(std::move(faces), picture);
 }
@@ -127,31 +111,10 @@ void add_clearance(const SceneOrgan& organ, const Clearance& clearance, MarkerAr
            to_eigen(clearance.on_organ), kLineWidth * organ.size(), picture);
 }
 
-/// Adds a cone around the shaft for each place where its axis pierces the organ. The cones point
-/// along the axis and stand outside the organ: where the axis enters, the cone ends at the surface,
-/// and where it leaves, it begins there. `radius`: the shaft's radius [m].
-void add_crossings(const SceneOrgan& organ, const ShaftAxis& axis, double radius,
-                   const ToolPlacement& placement, MarkerArray& picture) {
-  constexpr double kRadius = 2.5;  // The radius of a cone, as a multiple of the shaft's radius.
-  constexpr double kLeastRadius = 0.02;
-  constexpr double kLength = 2.0;  // The length of a cone, as a multiple of its radius.
-  // An arrow that is nearly all head is a cone. RViz warns of an arrow without a shaft.
-  const ArrowShape shape{0.01, 2.0 / kLength, 0.999};
-  const double length = kLength * std::max(kRadius * radius, kLeastRadius * organ.size());
-  const Vector3d cone = length * axis.along().normalized();
-  for (std::size_t i = 0; i < std::min(placement.crossings.size(), kMostCrossings); ++i) {
-    const bool enters = placement.crossings[i].direction > 0;
-    const Vector3d point = to_eigen(placement.crossings[i].point);
-    const Vector3d base = enters ? Vector3d(point - cone) : point;
-    add_arrow({"crossings", organ.frame, enters ? kEntering : kLeaving}, base, base + cone, shape,
-              picture);
-  }
-}
-
 /// For example "probe: 3 contacts, 1.2 mm deep, tip inside, 32.1 mm of its axis inside", or "probe:
 /// touches nothing, 3.2 mm away". If the step failed, for example "probe: no transform: ...", with
-/// the message. `fades`: faces that the tool touched are still shown.
-std::string status_line(const std::string& tool, const ContactArrayConstPtr& answer, bool fades) {
+/// the message.
+std::string status_line(const std::string& tool, const ContactArrayConstPtr& answer) {
   constexpr std::size_t kLongestReason = 100;  // [bytes]
   if (!answer) return tool + ": no answer yet";
   if (answer->status != ContactArray::OK) {
@@ -165,7 +128,7 @@ std::string status_line(const std::string& tool, const ContactArrayConstPtr& ans
     const double depth = std::min_element(contacts.begin(), contacts.end(), is_deeper)->depth;
     line += counted(contacts.size(), "contact") + rounded(", %.1f mm deep", 1e3 * depth);
   } else {
-    line += fades ? "touched a moment ago" : "touches nothing";
+    line += "touches nothing";
     if (clearance.state == Clearance::KNOWN) {
       line += clearance.unresolved ? ", at most" : ",";
       line += rounded(" %.1f mm away", 1e3 * clearance.distance);
@@ -191,25 +154,34 @@ bool is_far(const ScenePair& pair) {
 
 }  // namespace
 
-void add_surroundings(const SceneOrgan& organ, const ScenePair& pair, double radius,
-                      MarkerArray& picture) {
-  add_near_faces(organ, *pair.answer, picture);
-  add_clearance(organ, pair.answer->clearance, picture);
-  if (pair.pose) {
-    add_crossings(organ, pair.pose->axis, radius, pair.answer->placement, picture);
-  }
-}
-
-void add_contacts(const SceneOrgan& organ, const ContactArray& answer, double share,
-                  MarkerArray& picture) {
+void add_answer(const SceneOrgan& organ, const ContactArray& answer, MarkerArray& picture) {
+  add_near_faces(organ, answer, picture);
+  add_clearance(organ, answer.clearance, picture);
   add_regions(organ, answer, picture);
-  add_normals(organ, answer, share, picture);
-  add_names(organ, answer, share, picture);
+  add_normals(organ, answer, picture);
+  add_names(organ, answer, picture);
 }
 
-void add_status(const Scene& scene, const SceneOrgan& organ,
-                const std::vector<const SceneStep*>& fading, double query_sec,
-                MarkerArray& picture) {
+void add_touched(const SceneOrgan& organ, double last_colour, MarkerArray& picture) {
+  std::map<std::uint32_t, double> depths;  // The greatest one of each face.
+  const auto note = [&](const ContactArray& answer) {
+    for (const Contact& contact : answer.contacts) {
+      double& depth = depths.emplace(contact.face, contact.depth).first->second;
+      depth = std::max(depth, contact.depth);
+    }
+  };
+  for (const ScenePair& pair : organ.pairs) {
+    if (pair.answer) note(*pair.answer);
+    for (const SceneStep& step : pair.steps) note(*step.answer);
+  }
+  Marker faces = make_marker({"touched", organ.frame, colours::depth(0.0)}, Marker::TRIANGLE_LIST);
+  for (const auto& [face, depth] : depths) {
+    add_lifted_face(faces, organ, face, colours::depth(depth / last_colour));
+  }
+  add_marker(std::move(faces), picture);
+}
+
+void add_status(const Scene& scene, const SceneOrgan& organ, MarkerArray& picture) {
   // The text is below the organ, because most tools come from above, and would hide it there. At
   // this distance, the organ does not hide it from a viewer who looks down at 40 degrees.
   constexpr double kDistance = 0.28;  // The distance of the text from the organ's box.
@@ -220,16 +192,18 @@ void add_status(const Scene& scene, const SceneOrgan& organ,
     place = add_text({"status", organ.frame, colour}, place, organ.size(), line, picture);
   };
   add(colours::kText, organ.name + ": " + counted(organ.mesh->face_count(), "face"));
-  for (std::size_t i = 0; i < organ.pairs.size(); ++i) {
-    const ScenePair& pair = organ.pairs[i];
+  for (const ScenePair& pair : organ.pairs) {
     // With many organs and tools, lines about far pairs would hide those about near ones.
-    if (scene.organs.size() > 1 && is_far(pair) && !fading[i]) continue;
+    if (scene.organs.size() > 1 && is_far(pair)) continue;
     const bool failed = pair.answer && pair.answer->status != ContactArray::OK;
     add(failed ? colours::kFailure : colours::kText,
-        status_line((*scene.tools)[pair.tool].parameters.name, pair.answer, fading[i]));
+        status_line((*scene.tools)[pair.tool].parameters.name, pair.answer));
   }
-  // In milliseconds, because the font of RViz has no micro sign.
-  if (query_sec > 0.0) add(colours::kText, rounded("%.3f ms a query", 1e3 * query_sec));
+  if (scene.query_times && scene.query_times->summary().count > 0) {
+    // In milliseconds, because the font of RViz has no micro sign.
+    const double milliseconds = 1e3 * scene.query_times->summary().median;
+    add(colours::kText, rounded("%.3f ms a query", milliseconds));
+  }
 }
 
 }  // namespace organ_collision

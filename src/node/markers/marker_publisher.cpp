@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <boost/make_shared.hpp>
+#include <set>
 #include <thread>
-#include <unordered_map>
 
 #include "organ_collision/ros/names.hpp"
 
@@ -21,8 +21,8 @@ constexpr std::uint32_t kMarkerQueue = 1200;
 /// The pause after each message, so that roscpp's thread, which also receives organs and
 /// transforms, is never busy with markers for long.
 constexpr std::chrono::microseconds kPause(125);
-/// The most steps that are kept for the next picture. If more come, all steps that are kept are
-/// dropped, and the picture does not show them.
+/// The most steps of an organ and a tool that are kept for the next picture. If more come, all that
+/// are kept are dropped.
 constexpr std::size_t kMostSteps = 1000;
 
 /// The colours of the organs' surfaces: consecutive organs have different ones.
@@ -41,8 +41,8 @@ double refresh_sec(const SceneOrgan& organ) {
   return std::max(kRefreshSec, 10.0 * organ.mesh->face_count() / kFacesPerSecond);
 }
 
-int surface_marker_count(const SceneOrgan& organ) {
-  return static_cast<int>((organ.mesh->face_count() + kFacesPerMarker - 1) / kFacesPerMarker);
+int surface_marker_count(const TriangleMesh& mesh) {
+  return static_cast<int>((mesh.face_count() + kFacesPerMarker - 1) / kFacesPerMarker);
 }
 
 /// A marker with some of the faces of a surface: those for this id. `number`: the organ's place
@@ -69,172 +69,93 @@ void publish_alone(Marker marker, const MarkerPainter::Publish& publish) {
   publish(array);
 }
 
-bool is_about(const SceneStep& step, const SceneOrgan& organ) {
-  return step.answer->organ == organ.name && step.faces == organ.mesh->shared_faces();
-}
-
 }  // namespace
 
 void MarkerPainter::paint(const Scene& scene, const Publish& publish) {
-  for (const SceneStep& step : scene.steps) {
-    const SceneOrgan* organ = scene.organ(step.answer->organ);
-    if (organ && is_about(step, *organ)) trail_.push_back(step);
-    if (step.query_sec == 0.0) continue;
-    query_sec_sum_ += step.query_sec;
-    ++query_count_;
-  }
-  if (query_count_ > 0 && scene.time - mean_since_ >= std::chrono::seconds(1)) {
-    mean_query_sec_ = query_sec_sum_ / static_cast<double>(query_count_);
-    mean_since_ = scene.time;
-    query_sec_sum_ = 0.0;
-    query_count_ = 0;
-  }
-  while (!trail_.empty() && visibility(trail_.front().time, scene.time) == 0.0) trail_.pop_front();
   const auto picture = boost::make_shared<MarkerArray>();
   add_tools(scene, *picture);
   for (const SceneOrgan& organ : scene.organs) {
-    add_touched(scene, organ, *picture);
-    std::vector<const SceneStep*> fading;
+    add_touched(organ, scene.settings.markers_depth, *picture);
     for (const ScenePair& pair : organ.pairs) {
-      if (pair.answer) {
-        add_surroundings(organ, pair, (*scene.tools)[pair.tool].parameters.radius, *picture);
-        add_contacts(organ, *pair.answer, 1.0, *picture);
-      }
-      fading.push_back(fading_step(scene, organ, pair));
-      if (!fading.back()) continue;
-      const double share = visibility(fading.back()->time, scene.time);
-      add_contacts(organ, *fading.back()->answer, share, *picture);
+      if (pair.answer) add_answer(organ, *pair.answer, *picture);
     }
-    add_status(scene, organ, fading, mean_query_sec_, *picture);
+    add_status(scene, organ, *picture);
   }
   if (scene.more) scene.more(*picture);
-  if (scene.anew) start_anew(*picture, publish);
+  if (!picture->markers.empty()) frame_ = picture->markers.front().header.frame_id;
+  if (scene.anew) start_anew(publish);
   paint_surfaces(scene, publish);
-  delete_rest(scene, *picture);
+  delete_rest(*picture);
   if (!picture->markers.empty()) publish(picture);
 }
 
 /// Deletes all markers, and forgets which were sent. A new subscriber may still show what an
 /// earlier run of the node published.
-void MarkerPainter::start_anew(const MarkerArray& picture, const Publish& publish) {
-  shown_.clear();
+void MarkerPainter::start_anew(const Publish& publish) {
+  counts_.clear();
   surfaces_.clear();
-  if (picture.markers.empty()) return;
-  const std::string& frame = picture.markers.front().header.frame_id;  // RViz demands a known one.
-  Marker all = make_marker({"", frame, colours::kText}, Marker::CUBE);
+  if (frame_.empty()) return;
+  Marker all = make_marker({"", frame_, colours::kText}, Marker::CUBE);
   all.action = Marker::DELETEALL;
   publish_alone(std::move(all), publish);
 }
 
+/// Publishes the surfaces that are due, and forgets those that are not there any more.
 void MarkerPainter::paint_surfaces(const Scene& scene, const Publish& publish) {
-  const bool is_shown = scene.settings.surface_rate_hz > 0.0;
-  for (auto sent = surfaces_.begin(); sent != surfaces_.end();) {
-    sent = is_shown && scene.organ(sent->first) ? std::next(sent) : surfaces_.erase(sent);
-  }
-  for (std::size_t number = 0; is_shown && number < scene.organs.size(); ++number) {
+  std::map<std::string, Surface> before = std::exchange(surfaces_, {});
+  if (scene.settings.surface_rate_hz == 0.0) return;
+  for (std::size_t number = 0; number < scene.organs.size(); ++number) {
     const SceneOrgan& organ = scene.organs[number];
-    if (!is_due(scene, organ)) continue;
-    for (int id = 0; id < surface_marker_count(organ); ++id) {
+    Surface& surface = surfaces_[organ.name] = std::move(before[organ.name]);
+    if (!is_due(scene, organ, surface)) continue;
+    surface = {scene.time, organ.mesh, organ.frame};
+    for (int id = 0; id < surface_marker_count(*organ.mesh); ++id) {
       publish_alone(surface_marker(organ, number, id), publish);
     }
-    surfaces_[organ.name] = {scene.time, organ.mesh, organ.frame};
   }
 }
 
-bool MarkerPainter::is_due(const Scene& scene, const SceneOrgan& organ) const {
-  const auto sent = surfaces_.find(organ.name);
-  if (sent == surfaces_.end()) return true;
-  const Surface& last = sent->second;
+bool MarkerPainter::is_due(const Scene& scene, const SceneOrgan& organ, const Surface& last) const {
+  if (!last.mesh) return true;
   const double waited = std::chrono::duration<double>(scene.time - last.sent).count();
-  const bool changed = last.mesh != organ.mesh || last.frame != organ.frame;
-  if (!changed) return waited >= refresh_sec(organ);
+  if (last.mesh == organ.mesh && last.frame == organ.frame) return waited >= refresh_sec(organ);
   return waited >= 1.0 / scene.settings.surface_rate_hz &&
          waited >= organ.mesh->face_count() / kFacesPerSecond;
 }
 
 /// Adds each tool in the frame of the first organ that knows its pose, and what it swept there.
 void MarkerPainter::add_tools(const Scene& scene, MarkerArray& picture) const {
-  for (std::size_t number = 0; number < scene.tools->size(); ++number) {
-    const Tool& tool = (*scene.tools)[number];
-    const auto is_own = [&](const ScenePair& pair) { return pair.tool == number && pair.pose; };
-    for (const SceneOrgan& organ : scene.organs) {
-      const auto pair = std::find_if(organ.pairs.begin(), organ.pairs.end(), is_own);
-      if (pair == organ.pairs.end()) continue;
-      std::vector<const SceneStep*> steps;
-      for (const SceneStep& step : trail_) {
-        const ContactArray& answer = *step.answer;
-        const bool is_of_both = answer.organ == organ.name && answer.tool == tool.parameters.name;
-        if (is_of_both) steps.push_back(&step);
-      }
-      add_tool(tool, *pair->pose, {"tools", organ.frame, colours::kTool}, picture);
-      add_swept(tool, steps, organ.frame, scene.time, picture);
-      break;
+  std::set<std::size_t> drawn;
+  for (const SceneOrgan& organ : scene.organs) {
+    for (const ScenePair& pair : organ.pairs) {
+      if (!pair.pose || !drawn.insert(pair.tool).second) continue;
+      const Tool& tool = (*scene.tools)[pair.tool];
+      add_tool(tool, *pair.pose, {"tools", organ.frame, colours::kTool}, picture);
+      if (tool.parameters.has_shaft()) add_swept(pair.steps, organ.frame, picture);
     }
   }
-}
-
-/// Adds the faces that are touched or were touched lately, coloured by depth, at their present
-/// place. If a face has several contacts at the same time, the deepest one counts.
-void MarkerPainter::add_touched(const Scene& scene, const SceneOrgan& organ,
-                                MarkerArray& picture) const {
-  struct Touch {
-    SteadyTime time;
-    double depth;
-  };
-  std::unordered_map<std::uint32_t, Touch> touches;
-  const auto note = [&](const ContactArray& answer, SteadyTime time) {
-    for (const Contact& contact : answer.contacts) {
-      Touch& touch = touches[contact.face];
-      touch.depth = touch.time == time ? std::max(touch.depth, contact.depth) : contact.depth;
-      touch.time = time;
-    }
-  };
-  for (const SceneStep& step : trail_) {
-    if (is_about(step, organ)) note(*step.answer, step.time);
-  }
-  for (const ScenePair& pair : organ.pairs) {
-    if (pair.answer) note(*pair.answer, scene.time);
-  }
-  Marker faces = make_marker({"touched", organ.frame, colours::depth(0.0)}, Marker::TRIANGLE_LIST);
-  for (const auto& [face, touch] : touches) {
-    const std_msgs::ColorRGBA colour = colours::depth(touch.depth / scene.settings.markers_depth);
-    add_lifted_face(faces, organ, face, colours::faded(colour, visibility(touch.time, scene.time)));
-  }
-  add_marker(std::move(faces), picture);
-}
-
-/// The last step in which the tool touched the organ, while its contacts fade. Null if the latest
-/// answer has contacts.
-const SceneStep* MarkerPainter::fading_step(const Scene& scene, const SceneOrgan& organ,
-                                            const ScenePair& pair) const {
-  if (pair.answer && !pair.answer->contacts.empty()) return nullptr;
-  const std::string& tool = (*scene.tools)[pair.tool].parameters.name;
-  const auto step = std::find_if(trail_.rbegin(), trail_.rend(), [&](const SceneStep& step) {
-    return is_about(step, organ) && step.answer->tool == tool && !step.answer->contacts.empty();
-  });
-  return step == trail_.rend() ? nullptr : &*step;
 }
 
 /// Adds a DELETE for each marker that subscribers have, and that is neither in this picture nor
-/// part of a surface that is shown.
-void MarkerPainter::delete_rest(const Scene& scene, MarkerArray& picture) {
-  decltype(shown_) now;
+/// part of a surface. The ids of each namespace run from 0.
+void MarkerPainter::delete_rest(MarkerArray& picture) {
+  std::map<std::string, int> before = std::exchange(counts_, {});
   for (Marker& marker : picture.markers) {
     marker.lifetime = ros::Duration(kLifetimes * kRefreshSec);
-    now[{marker.ns, marker.id}] = marker.header.frame_id;
+    ++counts_[marker.ns];
   }
-  for (const SceneOrgan& organ : scene.organs) {
-    const int count = surfaces_.count(organ.name) > 0 ? surface_marker_count(organ) : 0;
-    for (int id = 0; id < count; ++id) now[{kSurface + organ.name, id}] = organ.frame;
+  for (const auto& [organ, surface] : surfaces_) {
+    counts_[kSurface + organ] = surface_marker_count(*surface.mesh);
   }
-  for (const auto& [marker, frame] : shown_) {
-    if (now.count(marker) > 0) continue;
-    Marker gone = make_marker({marker.first, frame, colours::kText}, Marker::CUBE);
-    gone.action = Marker::DELETE;
-    gone.id = marker.second;
-    picture.markers.push_back(std::move(gone));
+  std::map<std::string, int> now = counts_;
+  for (const auto& [name_space, count] : before) {
+    for (int id = now[name_space]; id < count; ++id) {
+      Marker gone = make_marker({name_space, frame_, colours::kText}, Marker::CUBE);
+      gone.action = Marker::DELETE;
+      gone.id = id;
+      picture.markers.push_back(std::move(gone));
+    }
   }
-  shown_ = std::move(now);
 }
 
 MarkerPublisher::MarkerPublisher(ros::NodeHandle private_node, const MarkerSettings& settings,
@@ -263,27 +184,35 @@ void MarkerPublisher::set_tools(const std::vector<Tool>& tools) {
 
 void MarkerPublisher::add(const ToolStep& step) {
   if (subscribers_ == 0 || settings_.markers_rate_hz == 0.0) return;
-  if (steps_.size() >= kMostSteps) steps_.clear();
-  steps_.push_back({std::chrono::steady_clock::now(), step.answer,
-                    step.question.shape.mesh->shared_faces(), step.question.sampled.path,
-                    step.query_sec});
+  if (are_shown_) steps_.clear();
+  are_shown_ = false;
+  std::vector<Step>& steps = steps_[{step.answer->organ, step.tool}];
+  if (steps.size() >= kMostSteps) steps.clear();
+  const Question& question = step.question;
+  steps.push_back({question.shape.mesh->shared_faces(), {step.answer, question.sampled.path}});
 }
 
-void MarkerPublisher::update(const OrganRegistry& organs, const StepHistory& history) {
+void MarkerPublisher::update(const OrganRegistry& organs, const StepHistory& history,
+                             const DurationStatistics& query_times) {
   if (subscribers_ == 0) steps_.clear();
   std::optional<Scene> scene = next_scene(organs);
   if (!scene) return;
-  for (const auto& [names, pair] : history) {
-    for (SceneOrgan& organ : scene->organs) {
+  for (SceneOrgan& organ : scene->organs) {
+    for (const auto& [names, pair] : history) {
       if (organ.name != names.first || names.second >= scene->tools->size()) continue;
       ScenePair& known = organ.pairs.emplace_back();
       known.tool = names.second;
+      const SharedFaces faces = organ.mesh->shared_faces();
       const auto& mesh = pair.current.mesh;
-      if (mesh && mesh->shared_faces() == organ.mesh->shared_faces()) known.answer = pair.answer;
+      if (mesh && mesh->shared_faces() == faces) known.answer = pair.answer;
       if (pair.last) known.pose = pair.last->pose;
+      for (const Step& step : steps_[names]) {
+        if (known.answer && step.faces == faces) known.steps.push_back(step.shown);
+      }
     }
   }
-  scene->steps = std::exchange(steps_, {});
+  are_shown_ = true;
+  scene->query_times = &query_times;
   draw(std::move(*scene));
 }
 

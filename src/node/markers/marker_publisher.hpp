@@ -1,7 +1,6 @@
 #pragma once
 
 #include <atomic>
-#include <deque>
 #include <functional>
 #include <map>
 
@@ -22,8 +21,8 @@ inline constexpr double kFacesPerSecond = 1e6;
 /// before. Large surfaces wait longer.
 inline constexpr double kRefreshSec = 2.0;
 
-/// Draws scenes as markers. Remembers what it drew, so that it deletes what is gone, sends surfaces
-/// only when they changed, and lets traces of recent steps fade.
+/// Draws scenes as markers. Remembers what it drew, so that it deletes what is gone, and sends
+/// surfaces only when they changed.
 class MarkerPainter {
  public:
   using Publish = std::function<void(const visualization_msgs::MarkerArrayConstPtr&)>;
@@ -36,32 +35,19 @@ class MarkerPainter {
   /// A surface that was sent.
   struct Surface {
     SteadyTime sent;
-    std::shared_ptr<const TriangleMesh> mesh;
+    std::shared_ptr<const TriangleMesh> mesh;  ///< null: it was not sent yet
     std::string frame;
   };
 
-  void start_anew(const visualization_msgs::MarkerArray& picture, const Publish& publish);
+  void start_anew(const Publish& publish);
   void paint_surfaces(const Scene& scene, const Publish& publish);
-  bool is_due(const Scene& scene, const SceneOrgan& organ) const;
+  bool is_due(const Scene& scene, const SceneOrgan& organ, const Surface& last) const;
   void add_tools(const Scene& scene, visualization_msgs::MarkerArray& picture) const;
-  void add_touched(const Scene& scene, const SceneOrgan& organ,
-                   visualization_msgs::MarkerArray& picture) const;
-  const SceneStep* fading_step(const Scene& scene, const SceneOrgan& organ,
-                               const ScenePair& pair) const;
-  void delete_rest(const Scene& scene, visualization_msgs::MarkerArray& picture);
+  void delete_rest(visualization_msgs::MarkerArray& picture);
 
   std::map<std::string, Surface> surfaces_;  ///< by the organ's name
-  /// The markers that subscribers have: the frame of each, by namespace and id. RViz ignores a
-  /// DELETE without a frame.
-  std::map<std::pair<std::string, int>, std::string> shown_;
-  std::deque<SceneStep> trail_;  ///< the recent steps, which fade
-
-  // The mean time of the queries within about a second. It changes only once a second, so that
-  // people can read it.
-  SteadyTime mean_since_;
-  double query_sec_sum_ = 0.0;
-  std::size_t query_count_ = 0;
-  double mean_query_sec_ = 0.0;
+  std::map<std::string, int> counts_;        ///< of the markers that are shown, by namespace
+  std::string frame_;  ///< of the last picture. RViz ignores a DELETE without a frame.
 };
 
 /// The topic of a node's markers. The node's thread only notes what there is to see. A thread of
@@ -79,26 +65,35 @@ class MarkerPublisher {
   /// Takes effect with the next picture, which is due as soon as the last one is finished.
   void set_settings(const MarkerSettings& settings);
   void set_tools(const std::vector<Tool>& tools);
-  /// Notes a step: its contacts and its path leave traces in the next pictures.
+  /// Notes a step. The next picture shows what the tool touched and swept in it, and so do all
+  /// pictures before another step comes.
   void add(const ToolStep& step);
 
   // These draw a picture if one is due: there is a subscriber, the last picture is finished, and it
   // is time for the next one. If markers are switched off, what is still shown disappears at the
   // end of its lifetime.
 
-  /// What the collision node has to show: organs, tools and answers.
-  void update(const OrganRegistry& organs, const StepHistory& history);
+  /// What the collision node has to show: organs, tools and answers. `query_times`: must outlive
+  /// this object.
+  void update(const OrganRegistry& organs, const StepHistory& history,
+              const DurationStatistics& query_times);
   /// What another node has to show: its organs, and what `draw_more` makes. It is called only if a
   /// picture is due. `size`: of the largest organ [m]; 0 if there is none.
   void update(const OrganRegistry& organs, const Draw& draw_more);
 
  private:
+  struct Step {
+    SharedFaces faces;  ///< the organ's triangles at that time
+    SceneStep shown;
+  };
+
   std::optional<Scene> next_scene(const OrganRegistry& organs);
   void draw(Scene scene);
 
   MarkerSettings settings_;
   std::shared_ptr<const std::vector<Tool>> tools_;
-  std::vector<SceneStep> steps_;  ///< the steps since the last picture
+  std::map<std::pair<std::string, std::size_t>, std::vector<Step>> steps_;  ///< as in StepHistory
+  bool are_shown_ = false;  ///< a picture has shown the steps
   int subscribers_ = 0;
   bool anew_ = false;  ///< a subscriber has come that has received nothing yet
   SteadyTime due_;

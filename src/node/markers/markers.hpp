@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "node/parameters/node_parameters.hpp"
+#include "node/publishing/diagnostics.hpp"
 #include "node/steps/step.hpp"
 #include "node/tools/tool.hpp"
 #include "organ_collision/geometry/organ/triangle_mesh.hpp"
@@ -21,11 +22,18 @@ namespace organ_collision {
 
 // What is drawn.
 
+/// A step of a tool against an organ.
+struct SceneStep {
+  ContactArrayConstPtr answer;
+  ToolPath path;  ///< empty if the step failed
+};
+
 /// What is known of one tool in relation to an organ.
 struct ScenePair {
   std::size_t tool;              ///< index into Scene::tools
   ContactArrayConstPtr answer;   ///< the latest answer about the present triangles; null: none yet
   std::optional<ToolPose> pose;  ///< the pose in the organ's frame at the last successful step
+  std::vector<SceneStep> steps = {};  ///< since the last picture, about the present triangles
 };
 
 /// An organ, its latest shape, which nobody changes, and the tools in relation to it.
@@ -39,15 +47,6 @@ struct SceneOrgan {
   double size() const { return mesh->box().diagonal().cast<double>().norm(); }
 };
 
-/// A step since the last picture.
-struct SceneStep {
-  SteadyTime time;
-  ContactArrayConstPtr answer;
-  SharedFaces faces;  ///< the organ's triangles at that time
-  ToolPath path;      ///< empty if the step failed
-  double query_sec;
-};
-
 /// Adds markers to a picture, in the drawing thread.
 using Drawing = std::function<void(visualization_msgs::MarkerArray& picture)>;
 
@@ -58,16 +57,8 @@ struct Scene {
   bool anew = false;  ///< a subscriber has come that has received nothing yet
   std::shared_ptr<const std::vector<Tool>> tools;
   std::vector<SceneOrgan> organs;
-  std::vector<SceneStep> steps;  ///< the oldest first
-  Drawing more = {};             ///< adds what else there is to show; empty: nothing
-
-  /// The organ with this name. Null if there is none.
-  const SceneOrgan* organ(const std::string& name) const {
-    for (const SceneOrgan& organ : organs) {
-      if (organ.name == name) return &organ;
-    }
-    return nullptr;
-  }
+  const DurationStatistics* query_times = nullptr;  ///< null: there are no queries
+  Drawing more = {};  ///< adds what else there is to show; empty: nothing
 };
 
 // How it is drawn. Lengths are in metres, unless they are shares of a size.
@@ -90,15 +81,8 @@ inline const std_msgs::ColorRGBA kFailure = rgba(1.00F, 0.45F, 0.35F);
 /// The colour map of depths: `share` is 0 for a first touch (yellow) and 1 for the greatest depth
 /// that the map distinguishes (dark violet). Values beyond are clamped.
 std_msgs::ColorRGBA depth(double share);
-/// The colour with its opacity multiplied by `share` in [0, 1].
-std_msgs::ColorRGBA faded(std_msgs::ColorRGBA colour, double share);
 
 }  // namespace colours
-
-/// [s] The trace of something that has ended, such as a contact, fades within this time.
-inline constexpr double kFadeSec = 0.5;
-/// How visible the trace of something that happened at `time` is `now`: from 1 down to 0.
-double visibility(SteadyTime time, SteadyTime now);
 
 /// What markers of one kind have in common.
 struct MarkerStyle {
@@ -132,39 +116,29 @@ Eigen::Vector3d add_text(const MarkerStyle& style, const Eigen::Vector3d& place,
                          const std::string& text, visualization_msgs::MarkerArray& picture);
 void add_line(const MarkerStyle& style, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
               double width, visualization_msgs::MarkerArray& picture);
-/// The widths and the length of the head are shares of the arrow's length.
-struct ArrowShape {
-  double shaft_width = 0.08;
-  double head_width = 0.22;
-  double head_length = 0.3;
-};
 /// Adds nothing if the arrow has no length.
 void add_arrow(const MarkerStyle& style, const Eigen::Vector3d& tail, const Eigen::Vector3d& head,
-               const ArrowShape& shape, visualization_msgs::MarkerArray& picture);
+               visualization_msgs::MarkerArray& picture);
 
-/// Adds the near faces of the latest answer about a tool, the line of its clearance, and a cone for
-/// each place where its axis pierces the organ. `radius`: of the tool's shaft.
-void add_surroundings(const SceneOrgan& organ, const ScenePair& pair, double radius,
-                      visualization_msgs::MarkerArray& picture);
-/// Adds regions, an arrow for each of the deepest contacts, and the names of the links that touch.
-/// `share`: how visible arrows and names are, in [0, 1].
-void add_contacts(const SceneOrgan& organ, const ContactArray& answer, double share,
-                  visualization_msgs::MarkerArray& picture);
-/// Adds a text below the organ: its name, a line for each tool, and the query time [s] if it is
-/// above 0. If there are several organs, tools beyond their margin have no line. `fading`: for each
-/// pair, the step whose contacts are still shown though they have ended; null: none.
+/// Adds what an answer about the organ tells: the outlines of its regions, an arrow for each of the
+/// deepest contacts, the names of the links that touch, near faces, and the line of its clearance.
+void add_answer(const SceneOrgan& organ, const ContactArray& answer,
+                visualization_msgs::MarkerArray& picture);
+/// Adds the faces that the latest answers and the steps of all tools touch, coloured by depth.
+/// `last_colour`: from this depth [m] on, all have the same colour.
+void add_touched(const SceneOrgan& organ, double last_colour,
+                 visualization_msgs::MarkerArray& picture);
+/// Adds a text below the organ: its name, a line for each tool, and the query time. If there are
+/// several organs, tools beyond their margin have no line.
 void add_status(const Scene& scene, const SceneOrgan& organ,
-                const std::vector<const SceneStep*>& fading, double query_sec,
                 visualization_msgs::MarkerArray& picture);
 
 /// Adds the tool at a pose in the frame of the style: its shaft as a capsule, and the shapes of its
 /// links.
 void add_tool(const Tool& tool, const ToolPose& pose, const MarkerStyle& style,
               visualization_msgs::MarkerArray& picture);
-/// Adds the surface that the tool swept in `steps`, which are sorted from the oldest to the newest.
-/// It consists of the surfaces swept by the shaft's axis, and by the longest axis of each part of
-/// the links. It fades with the age of the steps.
-void add_swept(const Tool& tool, const std::vector<const SceneStep*>& steps,
-               const std::string& frame, SteadyTime now, visualization_msgs::MarkerArray& picture);
+/// Adds the surface that the axis of a shaft swept in these steps.
+void add_swept(const std::vector<SceneStep>& steps, const std::string& frame,
+               visualization_msgs::MarkerArray& picture);
 
 }  // namespace organ_collision

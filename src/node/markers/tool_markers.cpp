@@ -28,17 +28,7 @@ std_msgs::ColorRGBA depth(double share) {
               from.b + part * (to.b - from.b));
 }
 
-std_msgs::ColorRGBA faded(std_msgs::ColorRGBA colour, double share) {
-  colour.a *= static_cast<float>(share);
-  return colour;
-}
-
 }  // namespace colours
-
-double visibility(SteadyTime time, SteadyTime now) {
-  const double age = std::chrono::duration<double>(now - time).count();
-  return std::clamp(1.0 - age / kFadeSec, 0.0, 1.0);
-}
 
 Marker make_marker(const MarkerStyle& style, int type) {
   Marker marker;
@@ -114,13 +104,15 @@ void add_line(const MarkerStyle& style, const Vector3d& from, const Vector3d& to
 }
 
 void add_arrow(const MarkerStyle& style, const Vector3d& tail, const Vector3d& head,
-               const ArrowShape& shape, MarkerArray& picture) {
+               MarkerArray& picture) {
+  // Shares of the length.
+  constexpr double kShaftWidth = 0.08, kHeadWidth = 0.22, kHeadLength = 0.3;
   const double length = (head - tail).norm();
   if (!(length > 0.0)) return;
   Marker arrow = make_marker(style, Marker::ARROW);
-  arrow.scale.x = shape.shaft_width * length;
-  arrow.scale.y = shape.head_width * length;
-  arrow.scale.z = shape.head_length * length;
+  arrow.scale.x = kShaftWidth * length;
+  arrow.scale.y = kHeadWidth * length;
+  arrow.scale.z = kHeadLength * length;
   add_point(arrow, tail);
   add_point(arrow, head);
   add_marker(std::move(arrow), picture);
@@ -133,9 +125,6 @@ const std_msgs::ColorRGBA kSwept = colours::rgba(0.20F, 0.60F, 1.00F, 0.45F);
 /// A link's mesh with more faces than this is drawn as its bounding box, because the tools are sent
 /// with each picture.
 constexpr std::size_t kMostFacesOfTool = 5000;
-/// The surface that a tool swept is drawn for at most this many legs (doc/theory/geometry.md,
-/// Words). The oldest legs are left out.
-constexpr std::size_t kMostLegs = 2000;
 
 Marker shape(const MarkerStyle& style, int type, const Isometry3d& pose, const Vector3d& scale) {
   constexpr double kThinnest = 1e-6;  // [m] RViz warns of a scale of 0.
@@ -185,40 +174,6 @@ Marker link_part(const MarkerStyle& style, const Isometry3d& T_frame_link, const
                2.0 * (part.bounds.half_size + Vector3d::Constant(part.radius)));
 }
 
-/// The longest axis of the box around a part. Its motion is drawn in place of the part's motion.
-ShaftAxis longest_axis(const LinkPart& part) {
-  Eigen::Index longest = 0;
-  part.bounds.half_size.maxCoeff(&longest);
-  const Vector3d half = part.bounds.half_size[longest] * part.bounds.axes.col(longest);
-  return {part.bounds.center - half, part.bounds.center + half};
-}
-
-/// The lines whose motion is drawn for a tool, at a waypoint.
-std::vector<ShaftAxis> lines_of(const Tool& tool, const ToolWaypoint& waypoint) {
-  std::vector<ShaftAxis> lines;
-  if (tool.parameters.has_shaft()) lines.push_back(waypoint.axis);
-  for (std::size_t i = 0; i < std::min(tool.links.size(), waypoint.links.size()); ++i) {
-    for (const LinkPart& part : tool.links[i].parts) {
-      const ShaftAxis axis = longest_axis(part);
-      lines.push_back({waypoint.links[i] * axis.trocar, waypoint.links[i] * axis.tip});
-    }
-  }
-  return lines;
-}
-
-/// Adds the quadrangles that the lines of a tool sweep, without what has no area.
-void add_leg(const Tool& tool, const ToolWaypoint& from, const ToolWaypoint& to,
-             const std_msgs::ColorRGBA& colour, Marker& list) {
-  const std::vector<ShaftAxis> before = lines_of(tool, from), after = lines_of(tool, to);
-  for (std::size_t i = 0; i < std::min(before.size(), after.size()); ++i) {
-    for (const Triangle& half : {Triangle{before[i].trocar, before[i].tip, after[i].tip},
-                                 Triangle{before[i].trocar, after[i].tip, after[i].trocar}}) {
-      const bool has_area = !(half[1] - half[0]).cross(half[2] - half[0]).isZero(0.0);
-      if (has_area) add_triangle(list, half, colour);
-    }
-  }
-}
-
 }  // namespace
 
 void add_tool(const Tool& tool, const ToolPose& pose, const MarkerStyle& style,
@@ -236,16 +191,20 @@ void add_tool(const Tool& tool, const ToolPose& pose, const MarkerStyle& style,
   }
 }
 
-void add_swept(const Tool& tool, const std::vector<const SceneStep*>& steps,
-               const std::string& frame, SteadyTime now, MarkerArray& picture) {
+void add_swept(const std::vector<SceneStep>& steps, const std::string& frame,
+               MarkerArray& picture) {
   Marker swept = make_marker({"swept", frame, kSwept}, Marker::TRIANGLE_LIST);
-  std::size_t legs = 0;
-  for (auto step = steps.rbegin(); step != steps.rend() && legs < kMostLegs; ++step) {
-    const double share = visibility((*step)->time, now);
+  const auto add_half = [&](const Triangle& half) {
+    const bool has_area = !(half[1] - half[0]).cross(half[2] - half[0]).isZero(0.0);
+    if (has_area) add_triangle(swept, half, kSwept);
+  };
+  for (const SceneStep& step : steps) {
     ToolPath finer;
-    const ToolPath& path = with_subdivided_rotations((*step)->path, finer);
-    for (std::size_t i = path.size(); i-- > 1 && legs < kMostLegs; ++legs) {
-      add_leg(tool, path[i - 1], path[i], colours::faded(kSwept, share), swept);
+    const ToolPath& path = with_subdivided_rotations(step.path, finer);
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      const ShaftAxis &before = path[i - 1].axis, &after = path[i].axis;
+      add_half({before.trocar, before.tip, after.tip});
+      add_half({before.trocar, after.tip, after.trocar});
     }
   }
   add_marker(std::move(swept), picture);
