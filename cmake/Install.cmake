@@ -26,8 +26,8 @@ install(DIRECTORY examples DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}
 # Compiled where the simulators are, from copies of these folders.
 install(DIRECTORY examples/ambf examples/sofa DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/examples
   USE_SOURCE_PERMISSIONS PATTERN "build" EXCLUDE)
-install(PROGRAMS examples/ask.py examples/ask_many.py examples/crtk_hand.py examples/dvrk_organ.py
-  examples/dvrk_robot.py examples/grasper.py examples/guarded_arm.py examples/lower_until_touch.py
+install(PROGRAMS examples/ask.py examples/ask_many.py examples/crtk_hand.py
+  examples/grasper.py examples/guarded_arm.py examples/lower_until_touch.py
   examples/numpy_simulator.py examples/obey_guard.py examples/own_mesh.py examples/plan_grasper.py examples/sculpt.py
   examples/simulator.py scripts/demo_report.py scripts/organ_mesh_adapter scripts/plot.py scripts/pose_adapter.py scripts/trial_report.py scripts/view.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})

@@ -27,7 +27,6 @@ import view  # noqa: E402
 
 NODE = '/organ_collision'
 LIMIT = 60.0  # [s] longest wait for anything
-FRESH = 0.7  # The least opacity of touched faces: traces of an older step fade.
 
 
 @contextlib.contextmanager
@@ -148,10 +147,8 @@ class StillMarkers:
                 self.markers[key] = marker
 
     def has(self, namespaces):
-        """Whether markers of all these namespaces are there, and no traces of contacts that have faded."""
-        markers = list(self.markers.values())
-        opacity = [color.a for marker in markers if marker.ns == 'touched' for color in marker.colors]
-        return namespaces <= {marker.ns for marker in markers} and min(opacity, default=1.0) > FRESH
+        """Whether markers of all these namespaces are there."""
+        return namespaces <= {marker.ns for marker in list(self.markers.values())}
 
     def still(self, namespaces, *others):
         """Publishes the markers of these namespaces, and others."""

@@ -23,7 +23,7 @@ HOOK = {'name': 'hook', 'trocar_frame': 'hook_trocar', 'tip_frame': 'hook_tip', 
         'max_near': 30}
 HOOK_TROCAR, HOOK_TIP = (0.130, -0.02, 0.070), (0.068, 0.005, 0.032)
 # Namespaces of markers.
-SHOWN = {'surface/liver', 'tools', 'swept', 'touched', 'normals', 'names', 'crossings', 'clearance', 'near', 'status'}
+SHOWN = {'surface/liver', 'tools', 'swept', 'touched', 'normals', 'names', 'clearance', 'near', 'status'}
 CAMERA = Camera((-80, 32), (0.0, 0.0, -0.020), 0.300, (1600, 960), '40; 45; 54')
 
 
@@ -35,15 +35,12 @@ def call_outs(mesh, probe, hook):
     """What is named, its pixel, and where the name stands. `probe`, `hook`: the answers about the tools."""
     deepest = max(probe.contacts, key=lambda contact: contact.depth)
     corners = np.reshape(mesh.vertices, (-1, 3))[list(deepest.vertices)]
-    crossing = place(probe.placement.crossings[0].point)
-    outwards = (TROCAR - crossing) / np.linalg.norm(TROCAR - crossing)
     in_liver = (
         ('tools', TROCAR + 0.25 * (NOW - TROCAR), (60, 330)),
         ('swept: where\nthe axis went', 0.25 * TROCAR + 0.55 * BEFORE + 0.2 * NOW, (60, 430)),
         ('surface/liver: the organ', (-0.088, -0.030, 0.004), (60, 550)),
         ('normals of the contacts', place(deepest.on_organ) - 0.008 * place(deepest.normal), (150, 660)),
         ('touched: coloured by depth', np.mean(corners, axis=0), (560, 660)),
-        ('crossings: the axis enters', crossing + 0.012 * outwards, (620, 130)),
         ('clearance: the nearest points',
          0.5 * (place(hook.clearance.on_tool) + place(hook.clearance.on_organ)), (1060, 620)),
         ('near: faces within\nthe margin', (0.074, 0.001, 0.019), (1300, 470)))

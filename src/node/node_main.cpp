@@ -30,7 +30,7 @@ ProgramHelp node_help() {
       {names::kGrasps, message_type<Grasp>(),
        "when the jaws of a tool grasp tissue, and when they let it go: its faces and thickness"},
       {names::kMarkers, message_type<visualization_msgs::MarkerArray>(),
-       "organs, tools, swept surfaces, contacts, clearances, near faces and crossings, for RViz"},
+       "organs, tools, swept surfaces, contacts, clearances and near faces, for RViz"},
       {"/diagnostics", message_type<diagnostic_msgs::DiagnosticArray>(),
        "rates, query times, rejected messages by reason, superseded shapes, late transforms, GL "
        "version, scheduling, whether the ROS master lists the node; the organs and tools"}};

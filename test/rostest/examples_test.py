@@ -10,11 +10,10 @@ import sys
 import tempfile
 import zipfile
 
-from geometry_msgs.msg import PoseStamped, Vector3, WrenchStamped
+from geometry_msgs.msg import Vector3, WrenchStamped
 import matplotlib.image
 import numpy as np
-from organ_collision import contact_table
-from organ_collision.msg import ContactArray, OrganMesh, OrganVertices, ProxyState, VertexForces
+from organ_collision.msg import OrganMesh, OrganVertices, ProxyState, VertexForces
 import rosnode
 import rospy
 from rosgraph_msgs.msg import Log as LogLine
@@ -24,13 +23,13 @@ from tf2_msgs.msg import TFMessage
 
 from support import scenes
 from support.launch_case import LaunchCase, files
-from support.node_client import LIMIT, ContactLog, Log, NodeClient, pose_stamped, wait_until
+from support.node_client import LIMIT, ContactLog, Log, wait_until
 from support.processes import NodeStarter, program
 
 LONG = 90.0  # [s]
 TESTED = {'ambf/ambf', 'sofa/sofa', 'start', 'mesh_adapter', 'haptics', 'dvrk', 'fem_tissue', 'forces',
           'numpy', 'sculpt'}
-ELSEWHERE = {'grasper', 'plan', 'guarded_arm'}  # robots.test, guarded_arm.test
+ELSEWHERE = {'dvrk_arm', 'grasper', 'plan', 'guarded_arm'}  # within dvrk.launch, robots.test, guarded_arm.test
 FEM_STEP = 0.004  # [s] of fem_tissue
 CLAY, CELL, BALL = (65, 45), 0.001, 0.006  # vertices of the top of sculpt.py's block; [m], [m] radius
 
@@ -102,7 +101,7 @@ class ExamplesTest(LaunchCase, NodeStarter):
 
     def test_simulators_end_if_another_node_takes_their_name_while_they_send(self):
         with self.launched('examples/start.launch'):
-            for simulator in ('simulator.py', 'own_mesh.py', 'dvrk_organ.py'):
+            for simulator in ('simulator.py', 'own_mesh.py'):
                 with self.subTest(simulator=simulator):
                     ended = subprocess.run([sys.executable, '-c', ENDS_WHILE_IT_SENDS, program(simulator)],
                                            stderr=subprocess.PIPE, text=True, timeout=LIMIT)
@@ -202,38 +201,23 @@ class ExamplesTest(LaunchCase, NodeStarter):
             launched.nodes.remove('/haptic_proxy')
 
     def test_dvrk(self):
-        """Both arms touch the organ with both jaws, and the hands feel forces out of it, within the limit of 2 N. A
-        wrench is turned, scaled, limited and ends."""
+        """Both arms touch the organ with both jaws, and the hands feel forces out of it, within the limit of 2 N."""
         jaws = {arm + link for arm in ('PSM1', 'PSM2') for link in ('_left_jaw', '_right_jaw')}
-        # The axes of the organ's frame in the camera's. The third one points out of the organ where the arms touch it.
-        axes = np.array([[-1, 0, 0], [0, 0.8, 0.6], [0, 0.6, -0.8]]).T
+        outwards = (0, 0.6, -0.8)  # where the arms touch the organ, in the camera's axes
         with self.launched('examples/dvrk.launch'):
             contacts = ContactLog('/organ_collision/contacts')
             hands = [Log('/%s/body/servo_cf' % hand, WrenchStamped) for hand in ('MTMR', 'MTML')]
             absolute = [Log('/%s/body/set_cf_orientation_absolute' % hand, Bool) for hand in ('MTMR', 'MTML')]
             touched = lambda: {a.links[c.link] for a in contacts.select(lambda a: True) for c in a.contacts}
             wait_until(lambda: jaws <= touched(), touched, LONG)
-            for answer in contacts.select(lambda answer: answer.contacts):
-                shape = np.linalg.norm(contact_table(answer).point / [0.09, 0.06, 0.035], axis=1)
-                self.assertLess(abs(shape - 1).max(), 0.03 + 0.01)  # The organ breathes.
             for log in hands:
-                # The forces of the first moments may point inward, because the jaws may begin inside the organ.
-                wait_until(lambda: log.last(lambda m: force_of(m) @ axes[:, 2] > 0), 'forces out of the organ', LONG)
+                wait_until(lambda: log.last(lambda m: force_of(m) @ outwards > 0.1), 'forces out of the organ', LONG)
                 for message in log.select(lambda message: True):
                     self.assertEqual((message.header.frame_id, message.wrench.torque), ('ECM', Vector3()))
                     self.assertLessEqual(np.linalg.norm(force_of(message)), 2.0 + 1e-9)
             for log in absolute:
                 self.assertTrue(wait_until(log.last, 'absolute axes').data)
             self.check_robot('urdf/psm.urdf', ('PSM_', 'PSM1_'))
-
-            publisher = rospy.Publisher('/tested_hand/wrench', WrenchStamped, queue_size=1)
-            felt, wrench = Log('/tested_hand/servo_cf', WrenchStamped), WrenchStamped()
-            wrench.header.frame_id = 'liver'
-            for pushed, expected in (((0.3, -0.5, 1.2), (0.15, -0.25, 0.6)), ((3.0, 0.0, 4.0), (0.6, 0.0, 0.8))):
-                wrench.wrench.force = Vector3(*pushed)
-                wait_until(lambda: publisher.publish(wrench) or felt.last(
-                    lambda m: np.allclose(force_of(m), axes @ expected, atol=1e-3)), lambda: felt.messages[-3:])
-            wait_until(lambda: not force_of(felt.last()).any(), lambda: felt.last())
 
     def test_forces(self):
         """The tissue pushes the probe up. The tip frame is not turned."""

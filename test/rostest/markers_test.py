@@ -30,7 +30,7 @@ TOOL = {'name': 'probe', 'trocar_frame': 'probe_trocar', 'tip_frame': 'probe_tip
         'max_near': 50}
 TROCAR = (0.01, 0.02, 0.3)
 TOUCHING, ABOVE = -0.302, -0.2  # [m] z coordinate of the tip, relative to the trocar
-FULL = {'surface/sheet', 'tools', 'touched', 'normals', 'names', 'near', 'clearance', 'crossings', 'status'}
+FULL = {'surface/sheet', 'tools', 'touched', 'normals', 'names', 'near', 'clearance', 'status'}
 
 
 class Viewer:

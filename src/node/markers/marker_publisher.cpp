@@ -184,8 +184,6 @@ void MarkerPublisher::set_tools(const std::vector<Tool>& tools) {
 
 void MarkerPublisher::add(const ToolStep& step) {
   if (subscribers_ == 0 || settings_.markers_rate_hz == 0.0) return;
-  if (are_shown_) steps_.clear();
-  are_shown_ = false;
   std::vector<Step>& steps = steps_[{step.answer->organ, step.tool}];
   if (steps.size() >= kMostSteps) steps.clear();
   const Question& question = step.question;
@@ -197,6 +195,7 @@ void MarkerPublisher::update(const OrganRegistry& organs, const StepHistory& his
   if (subscribers_ == 0) steps_.clear();
   std::optional<Scene> scene = next_scene(organs);
   if (!scene) return;
+  auto steps = std::exchange(steps_, {});
   for (SceneOrgan& organ : scene->organs) {
     for (const auto& [names, pair] : history) {
       if (organ.name != names.first || names.second >= scene->tools->size()) continue;
@@ -206,12 +205,12 @@ void MarkerPublisher::update(const OrganRegistry& organs, const StepHistory& his
       const auto& mesh = pair.current.mesh;
       if (mesh && mesh->shared_faces() == faces) known.answer = pair.answer;
       if (pair.last) known.pose = pair.last->pose;
-      for (const Step& step : steps_[names]) {
+      for (const Step& step : steps[names]) {
         if (known.answer && step.faces == faces) known.steps.push_back(step.shown);
       }
+      if (!steps[names].empty()) steps_[names] = {steps[names].back()};
     }
   }
-  are_shown_ = true;
   scene->query_times = &query_times;
   draw(std::move(*scene));
 }

@@ -65,8 +65,8 @@ class MarkerPublisher {
   /// Takes effect with the next picture, which is due as soon as the last one is finished.
   void set_settings(const MarkerSettings& settings);
   void set_tools(const std::vector<Tool>& tools);
-  /// Notes a step. The next picture shows what the tool touched and swept in it, and so do all
-  /// pictures before another step comes.
+  /// Notes a step: what the tool touched and swept. Pictures show the latest step of each organ and
+  /// tool, and all others since the last picture.
   void add(const ToolStep& step);
 
   // These draw a picture if one is due: there is a subscriber, the last picture is finished, and it
@@ -93,7 +93,6 @@ class MarkerPublisher {
   MarkerSettings settings_;
   std::shared_ptr<const std::vector<Tool>> tools_;
   std::map<std::pair<std::string, std::size_t>, std::vector<Step>> steps_;  ///< as in StepHistory
-  bool are_shown_ = false;  ///< a picture has shown the steps
   int subscribers_ = 0;
   bool anew_ = false;  ///< a subscriber has come that has received nothing yet
   SteadyTime due_;

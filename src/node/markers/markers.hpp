@@ -33,7 +33,7 @@ struct ScenePair {
   std::size_t tool;              ///< index into Scene::tools
   ContactArrayConstPtr answer;   ///< the latest answer about the present triangles; null: none yet
   std::optional<ToolPose> pose;  ///< the pose in the organ's frame at the last successful step
-  std::vector<SceneStep> steps = {};  ///< since the last picture, about the present triangles
+  std::vector<SceneStep> steps = {};  ///< the latest one, and those since the last picture
 };
 
 /// An organ, its latest shape, which nobody changes, and the tools in relation to it.
