@@ -287,17 +287,28 @@ class OrganTest(Case):
         self.assert_sent(6, 1, 4)
 
     def test_the_first_shape_of_a_restarted_sender_replaces_the_organ(self):
-        self.organ.restart()
+        def hear(name, *still_open):
+            self.organ.hear(senders.setdefault(name, {'callerid': name[:2], 'topic': name[2:]}),
+                            lambda sender: sender in [senders[each] for each in still_open])
+
+        senders = {}
+        hear('/a mesh')
         self.send(self.points)
-        self.assert_sent(1, 0, 1)
-        self.organ.restart()
-        self.send(self.moved)  # A removal comes first.
-        self.assert_sent(3, 0, 2)
-        self.organ.restart()
+        hear('/a points', '/a mesh')
+        hear('/b mesh', '/a mesh', '/a points')  # Two senders at a time are no restart.
+        hear('/a mesh')
         self.send_points(self.points)
-        self.assert_sent(5, 0, 3)
-        self.send_points(self.moved)
+        self.assert_sent(1, 1, 1)
+        hear('/c mesh')  # All others are gone.
+        self.send(self.moved)  # A removal comes first.
+        self.assert_sent(3, 1, 2)
+        senders['/c mesh'] = {'callerid': '/c', 'topic': ' mesh', 'again': 1}
+        hear('/c mesh')  # The same name, before the first connection is closed.
+        self.send_points(self.points)
         self.assert_sent(5, 1, 3)
+        hear('/c points', '/c mesh')
+        self.send_points(self.moved)
+        self.assert_sent(5, 2, 3)
         self.assertEqual([len(mesh.triangles) for mesh in self.meshes], [24, 0, 24, 0, 24])
 
     def test_what_the_collision_node_refuses_is_sent_but_not_remembered(self):
