@@ -205,10 +205,11 @@ void MarkerPublisher::update(const OrganRegistry& organs, const StepHistory& his
       const auto& mesh = pair.current.mesh;
       if (mesh && mesh->shared_faces() == faces) known.answer = pair.answer;
       if (pair.last) known.pose = pair.last->pose;
-      for (const Step& step : steps[names]) {
-        if (known.answer && step.faces == faces) known.steps.push_back(step.shown);
+      std::vector<Step>& own = steps[names];
+      if (!own.empty()) steps_[names] = {own.back()};
+      for (Step& step : own) {
+        if (known.answer && step.faces == faces) known.steps.push_back(std::move(step.shown));
       }
-      if (!steps[names].empty()) steps_[names] = {steps[names].back()};
     }
   }
   scene->query_times = &query_times;
