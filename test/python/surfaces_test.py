@@ -362,16 +362,15 @@ class OrganTest(Case):
 
 class ParameterTest(unittest.TestCase):
     def parse(self, **second):
-        unknown = []
         rows = [{'name': 'liver', 'topic': 'sim/liver', 'vertices_topic': 'sim/points'},
                 {'name': 'spleen', 'topic': 'b', **second}]
-        return adapter.organs_of(adapter.Group('~', {'organs': rows}, adapter.PARAMETERS, unknown), unknown), unknown
+        return adapter.organs_of(adapter.Group('~', {'organs': rows}, adapter.PARAMETERS))
 
     def test_are_taken(self):
-        organs, unknown = self.parse(frame='/spleen_frame', frame_id='x', scale=1)
-        self.assertEqual(organs[1], {'name': 'spleen', 'topic': 'b', 'frame': 'spleen_frame', 'vertices_topic': '',
-                                     'scale': 1.0})
-        self.assertRegex(unknown[0], r"^~organs\[1\]/frame_id is no parameter; nearest is 'frame', legal are name, topic, ")
+        self.assertEqual(self.parse(frame='/spleen_frame', scale=1)[1],
+                         {'name': 'spleen', 'topic': 'b', 'frame': 'spleen_frame', 'vertices_topic': '', 'scale': 1.0})
+        with self.assertRaisesRegex(ValueError, r'^~organs\[1\]/frame_id is no parameter; legal are name, topic, '):
+            self.parse(frame_id='x')
 
     def test_are_refused_with_their_value_and_what_is_legal(self):
         for key, value, word in (
