@@ -52,11 +52,12 @@ class MeshAdapterTest(ContactCase, NodeStarter):
         make = {'shape': shape_mesh, 'marker': marker, 'polygons': polygon_mesh}[organ]
         cls.publish('/sim/' + organ, make(mesh))
 
-    def wait_for_contacts(self, organ, mesh, node=None):
-        """Waits until the node's answer about the organ is that about `mesh`, a level sheet."""
+    def wait_for_contacts(self, organ, mesh, node=None, send=lambda: None):
+        """Waits until the node's answer about the organ is that about `mesh`, a level sheet, and sends it meanwhile."""
         depth = depth_at(AXIS[1][2] - mesh.vertices[0][2])
 
         def same():
+            send()
             result = (node or self.node).query(organ, shaft(*AXIS, RADIUS))
             seen[:] = [result.status, result.message, max((c.depth for c in result.contacts), default=math.inf)]
             return result if abs(seen[2] - depth) < 1e-6 else None
@@ -130,8 +131,8 @@ class MeshAdapterTest(ContactCase, NodeStarter):
             node = NodeClient('/late')
             self.assertEqual(self.wait_for_contacts('second', LOWER, node).mesh_stamp, stamp)
             self.assertEqual(node.query('gone', FAR_AWAY).status, ContactArray.UNKNOWN_ORGAN)
-            self.publish('/early/first', shape_mesh(mesh), adapter)
-            self.wait_for_contacts('first', mesh, node)
+            # The adapter may connect its vertices to the node later than its meshes.
+            self.wait_for_contacts('first', mesh, node, lambda: self.publish('/early/first', shape_mesh(mesh), adapter))
             node.close()
             self.stop(process)
 
