@@ -60,9 +60,9 @@ TEST(Clock, ItsEndsAreNoErrors) {
     EXPECT_EQ(later(time, 1e12), last);
   }
   for (const ros::Time now : {ros::Time(), ros::Time(4294966999.5), last}) {
-    EXPECT_NE(ahead_fault(ros::Time(4294967001.0), now, 1e9).find("at most 4294967000"),
+    EXPECT_NE(AheadLimit(1e9).fault(ros::Time(4294967001.0), now).find("at most 4294967000"),
               std::string::npos);
-    EXPECT_EQ(ahead_fault(ros::Time(4294966999.9), now, 1.0), "");
+    EXPECT_EQ(AheadLimit(1.0).fault(ros::Time(4294966999.9), now), "");
   }
 }
 
