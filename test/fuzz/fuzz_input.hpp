@@ -7,10 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <functional>
-#include <optional>
 #include <string>
-
-#include "common/messages/checked_messages.hpp"
 
 namespace organ_collision {
 
@@ -56,9 +53,6 @@ class FuzzInput {
   }
   std::string rest() { return text(left_); }
 
-  /// The next bytes, at most as many as two bytes before them say.
-  std::string sized_text() { return text(number<std::uint16_t>()); }
-
  private:
   void skip(std::size_t size) {
     data_ += size;
@@ -68,21 +62,5 @@ class FuzzInput {
   const std::uint8_t* data_;
   std::size_t left_;
 };
-
-/// The next message of an input as it comes over the wire: its size in two bytes, and its bytes. It
-/// is read as the nodes read messages. std::nullopt if the bytes are no such message.
-template <typename Message>
-std::optional<Message> next_message(FuzzInput& input) {
-  const std::string bytes = input.sized_text();
-  Message message;
-  try {
-    CheckedStream(reinterpret_cast<const std::uint8_t*>(bytes.data()),
-                  static_cast<std::uint32_t>(bytes.size()))
-        .next(message);
-  } catch (const ros::serialization::StreamOverrunException&) {
-    return std::nullopt;
-  }
-  return message;
-}
 
 }  // namespace organ_collision
