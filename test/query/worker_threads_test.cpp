@@ -75,14 +75,6 @@ TEST(WorkerThreads, DeliverWhileLaterTasksRun) {
       });
 }
 
-TEST(WorkerThreads, TheCallerDeliversBetweenItsTasks) {
-  WorkerThreads workers(prepare_nothing);
-  std::size_t delivered = 0;
-  workers.run(
-      10, [&](std::size_t, std::size_t task) { EXPECT_EQ(delivered, task); },
-      [&](std::size_t) { ++delivered; });
-}
-
 TEST(WorkerThreads, ThrowTheFirstExceptionAndGoOnWithTheNextRound) {
   WorkerThreads workers(prepare_nothing);
   workers.start(3);
@@ -102,24 +94,6 @@ TEST(WorkerThreads, ThrowTheFirstExceptionAndGoOnWithTheNextRound) {
     }
     EXPECT_EQ(delivered, numbers_up_to(11));
   }
-}
-
-TEST(WorkerThreads, DoNothingMoreWhenADeliveryThrew) {
-  WorkerThreads workers(prepare_nothing);
-  workers.start(2);
-  std::atomic<int> running{0};
-  EXPECT_THROW(workers.run(
-                   100,
-                   [&](std::size_t, std::size_t task) {
-                     ++running;
-                     pass_time(task);
-                     --running;
-                   },
-                   [](std::size_t task) {
-                     if (task == 3) throw std::runtime_error("disk full");
-                   }),
-               std::runtime_error);
-  EXPECT_EQ(running, 0);
 }
 
 TEST(WorkerThreads, SkipTheRestAndDeliverAllThatIsBegun) {

@@ -266,41 +266,6 @@ TEST(ProxyFrames, DoNotMatter) {
   EXPECT_GT(touching, 200);
 }
 
-/// The distance between two plates or jaws that close and open again, at 5 mm/s [m].
-double gap_at(int tick) {
-  return std::max(4e-3, 0.012 - 5e-6 * tick) + std::max(0.0, 5e-6 * (tick - 2400));
-}
-
-TEST(ProxySqueeze, StaysBetweenTwoPlatesThatClose) {
-  const auto plates = [](double gap) {
-    return joined(flat_sheet(6, 0.5 * gap), turned_over(flat_sheet(9, -0.5 * gap)));
-  };
-  const ProxyTool tool = ball_tool();
-  HapticProxy proxy(tool, {});
-  ProxyOrgan organ = organ_of(plates(gap_at(0)));
-  oracle::Referee referee(tool, {}, [](const std::string& what) { ADD_FAILURE() << what; });
-  // The hand is not in the middle, and goes into the upper plate.
-  const ToolPose hand = ball_hand({0.01, 0.003, 0.002});
-  long squeezed = 0;
-  for (int tick = 0; tick < 4000; ++tick) {
-    const auto shape = std::make_shared<TriangleMesh>(*organ.shape);
-    shape->move_vertices(plates(gap_at(tick)).vertices);
-    organ.shape = shape;
-    const ProxyAnswer& answer = proxy.follow(hand, {organ});
-    referee.check(hand, false, {organ}, {false}, answer);
-    const double half = 0.5 * gap_at(tick), z = answer.proxy.axis.tip.z();
-    if (half < kToolRadius) {
-      EXPECT_EQ(answer.state, ProxyStatus::kSqueezed) << half;
-      EXPECT_NEAR(z, 0.0, 1e-4) << half;
-      ++squeezed;
-    } else if (half > kStop) {
-      EXPECT_NE(answer.state, ProxyStatus::kSqueezed) << half;
-      EXPECT_NEAR(z, std::min(0.002, half - kStop), 1e-5) << half;
-    }
-  }
-  EXPECT_GT(squeezed, 500);
-}
-
 /// A closed box, 60 mm wide and 5 mm thick. Its middle is 1 mm above the origin.
 GridSurface slab() {
   GridSurface box = grid_cube(4, 0.015F);
