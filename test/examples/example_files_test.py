@@ -103,19 +103,6 @@ class ExampleFilesTest(unittest.TestCase):
             x.append((ROBOT.forward_kinematics(**joints) * link_in_tip('PSM_shaft', joints)).M.UnitX())
             self.assertAlmostEqual(np.dot(list(x[-2]), list(x[-1])), np.cos(turn), delta=1e-9, msg=joint)
 
-    def test_open_jaws_are_symmetric_and_apart(self):
-        ends = [link_in_tip(link, {'jaw': 0.8}) * Vector(0, 0, 0.01) for link in ('PSM_left_jaw', 'PSM_right_jaw')]
-        self.assertAlmostEqual(ends[0].y(), 0.01 * np.sin(0.4), delta=1e-12)
-        self.assertAlmostEqual(ends[1].y(), -ends[0].y(), delta=1e-12)
-        self.assertAlmostEqual(ends[1].z(), ends[0].z(), delta=1e-12)
-
-    def test_at_rest_an_arm_points_at_its_target(self):
-        for remote_centre, target in ROBOT.ARMS.values():
-            reach = (target - remote_centre).Norm()
-            tip = ROBOT.base_pose(remote_centre, target) * ROBOT.forward_kinematics(0, 0, ROBOT.OFFSET + reach, 0, 0, 0)
-            np.testing.assert_allclose(list(tip.p), list(target), atol=1e-9)
-            np.testing.assert_allclose(list(tip.M.UnitZ() * reach), list(target - remote_centre), atol=1e-9)
-
     def assert_closed(self, corners, volume, tolerance):
         """Checks that the faces of corners, m x 3 x 3 [m], are a closed surface, outward, around this volume."""
         _, places = np.unique(corners.reshape(-1, 3).round(9), axis=0, return_inverse=True)

@@ -158,18 +158,18 @@ std::size_t expect_around(const CollisionResult& result, const CollisionRequest&
   EXPECT_GE(result.around_up_to, nearest);
   EXPECT_LE(result.around_up_to, std::min(request.margin, nearest + 0.01));
   for (std::uint32_t face = 0; face < distances.size(); ++face) {
-    if (distances[face] > result.around_up_to - kExact) continue;
+    if (distances[face] > result.around_up_to - kMoving) continue;
     const Triangle corners = request.organ->triangle(face);
     const auto covers = [&](const FaceContact& at) {
-      const double room = -0.2 * std::max(0.0, -at.depth) - kExact;
+      const double room = -0.2 * std::max(0.0, -at.depth) - kMoving;
       return at.face == face ||
              project_onto(at.normal, corners).low >= at.normal.dot(at.on_organ) + room;
     };
     EXPECT_TRUE(std::any_of(result.around.begin(), result.around.end(), covers)) << face;
   }
   for (const FaceContact& at : result.around) {
-    EXPECT_GE(-at.depth, distances[at.face] - kExact);
-    EXPECT_LE(-at.depth, nearest + 0.01 + kExact);
+    EXPECT_GE(-at.depth, distances[at.face] - kMoving);
+    EXPECT_LE(-at.depth, nearest + 0.01 + kMoving);
   }
   return result.around.size();
 }

@@ -119,16 +119,6 @@ class LaunchFilesTest(LaunchCase, NodeStarter):
         self.assertTrue(0 < int(summary[2]) <= int(summary[1]), summary[0])
         self.assertRegex(printed, r"\nThe palpator's hand: [1-9]\d* poses, ")
 
-    def test_no_parameter_of_an_earlier_launch_acts(self):
-        """Unless clear_params is false."""
-        yesterday = {'friction': 0.5, 'max_force_rate': 77.0, 'clearance': [{'organ': 'a', 'value': 0.01}]}
-        for arguments, left in ((), set()), (('clear_params:=false',), set(yesterday)):
-            rospy.set_param('/haptic_proxy', dict(yesterday, tools=[]))
-            with self.launched('launch/haptic_proxy.launch', *arguments):
-                self.check_hands('/haptic_proxy', rospy.get_param('/haptic_proxy/tools'))
-                self.assertEqual(set(rospy.get_param('/haptic_proxy')) & set(yesterday), left)
-        rospy.delete_param('/haptic_proxy')
-
     def test_every_launch_file_clears_the_parameters_of_its_nodes(self):
         paths = set().union(*(files(folder, '.launch') for folder in
                               ('launch', 'examples', 'examples/ambf', 'examples/sofa')))

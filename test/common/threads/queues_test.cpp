@@ -40,20 +40,6 @@ TEST(RunInThreadOf, AQueueThatIsDisabledOrClearedEndsTheWait) {
   EXPECT_THROW(run_in_thread_of(queue, [] {}), std::runtime_error);
 }
 
-TEST(QueueThread, YieldsToTheThreadThatStartsIt) {
-  const int before = niceness();
-  const int nicer = std::min(before + 8, 18);
-  std::thread([&] {  // Its niceness ends with it.
-    setpriority(PRIO_PROCESS, 0, nicer);
-    QueueThread thread;
-    int background = 0;
-    run_in_thread_of(thread.queue(), [&] { background = niceness(); });
-    EXPECT_EQ(background, std::min(nicer + 10, 19));
-  })
-      .join();
-  EXPECT_EQ(niceness(), before);
-}
-
 TEST(QueueThread, EndsWithItsPresentCallback) {
   std::vector<int> called;
   std::promise<void> started, finish;

@@ -310,26 +310,5 @@ INSTANTIATE_TEST_SUITE_P(Kinds, SeparatedCores,
                          testing::Combine(testing::Values(0),
                                           testing::Range<std::size_t>(0, oracle::kCoreKinds)));
 
-TEST(ClosestApproach, TakesFewStepsWhereTheDistanceIsNearlyConstant) {
-  // A box turns about an axis at right angles to a face, and a shaft slides along one.
-  const Triangle face = {Vector3d(-0.3, -0.2, 0.0), Vector3d(0.4, -0.1, 0.0),
-                         Vector3d(0.0, 0.5, 0.0)};
-  const LinkPart box = LinkPart::box(Eigen::Isometry3d::Identity(), {0.03, 0.02, 0.01});
-  Eigen::Isometry3d start(Eigen::Translation3d(0.0, 0.0, 0.02));
-  Eigen::Isometry3d end = start * Eigen::AngleAxisd(1.5, Vector3d::UnitZ());
-  const RigidMotion turn(start, end);
-  for (const CoreMotion& core :
-       {CoreMotion(box.core, turn),
-        CoreMotion(ShaftMotion{{{-0.05, 0.0, 0.1}, {-0.05, 0.01, 0.015}},
-                               {{0.05, 0.0, 0.1}, {0.05, 0.01, 0.015}}})}) {
-    WorkBudget budget;
-    const auto found =
-        closest_approach(core, {face, face}, std::numeric_limits<double>::infinity(), budget);
-    ASSERT_TRUE(found);
-    EXPECT_NEAR(found->closest.distance, 0.015, 1e-6);
-    EXPECT_LT(budget.spent(), 100U);
-  }
-}
-
 }  // namespace
 }  // namespace organ_collision
