@@ -11,7 +11,6 @@ import tempfile
 from geometry_msgs.msg import PoseStamped
 from organ_collision.msg import ContactArray, OrganMesh, ProxyState, VertexForces
 import roslaunch
-import roslib.packages
 import rospy
 import rostest
 from tf2_msgs.msg import TFMessage
@@ -130,23 +129,6 @@ class LaunchFilesTest(LaunchCase, NodeStarter):
                         if node.package == 'organ_collision' or 'load organ_collision/' in node.args}
                 cleared = {name.rstrip('/') for name in loaded.clear_params}
                 self.assertTrue(ours <= cleared if clears else not cleared, (path, ours - cleared))
-
-    def test_the_rviz_file_names_displays_that_rviz_has(self):
-        (path,) = files('config', '.rviz')
-        with open(os.path.join(PACKAGE, path)) as text:
-            configuration = yaml.safe_load(text)
-        manager = configuration['Visualization Manager']
-        named = configuration['Panels'] + manager['Displays'] + manager['Tools'] + [manager['Views']['Current']]
-        classes = {part['Class'] for part in named}
-        self.assertGreaterEqual(classes, {'rviz/MarkerArray', 'rviz/Displays', 'rviz/Orbit'})
-        self.assertEqual([name for name in classes if not re.fullmatch(r'rviz/\w+', name)], [])
-        try:
-            plugins = os.path.join(roslib.packages.get_pkg_dir('rviz'), 'plugin_description.xml')
-        except roslib.packages.InvalidROSPkgException:
-            return  # RViz is not installed.
-        with open(plugins) as text:
-            known = set(re.findall(r'class name="(rviz/\w+)"', text.read())) | {'rviz/Displays'}
-        self.assertEqual(classes - known, set())
 
     def test_every_configuration_file(self):
         """A file with tools starts a collision node that answers, or a haptic_proxy that tells the state of each of

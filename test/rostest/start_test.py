@@ -59,22 +59,6 @@ class StartTest(ContactCase, NodeStarter):
     def setUp(self):
         self.name = '/' + self.id().split('.')[-1]
 
-    def test_refusals(self):
-        """The parameter, its value, and what is legal. Mesa would end the process if it did not know the driver."""
-        driver, started = ('env', 'GALLIUM_DRIVER=nonsense'), []
-        for i, (parameters, through, *words) in enumerate((
-            ({}, (), 'tools', 'missing'),
-            ({'tools': [TOOL], 'picker': 'raytrace'}, (), 'picker', 'raytrace', 'feedback', 'select', 'cpu'),
-            ({'tools': [TOOL, dict(TOOL, name='other', radius=float('nan'))]}, (), 'tools[1]/radius', 'nan', '0'),
-            ({'tools': [dict(TOOL, raduis=0.004)]}, (), 'tools[0]/raduis is no parameter', "nearest is 'radius'"),
-            ({'tools': [dict(TOOL, radius=5.0)]}, (), 'tools[0]/radius', 'above 0, up to 1'),
-            ({'tools': [TOOL], 'gl': 'osmesa'}, driver, 'GALLIUM_DRIVER', 'nonsense', 'llvmpipe', 'softpipe'),
-            ({'tools': [TOOL]}, self.without('osmesa_egl'), 'libOSMesa.so.8', 'libEGL.so.1', 'picker: cpu'),
-        )):
-            started.append((self.start('%s_%d' % (self.name, i), parameters, through=through), words))
-        for process, words in started:
-            self.assert_refused(process, words)
-
     def start_each(self, **parameters):
         """The three nodes, by name. The parameters are those of the nodes with organs."""
         rows = {'organ_collision_node': dict(parameters, tools=parameters.get('tools', [TOOL])), 'tool_guard': {}}

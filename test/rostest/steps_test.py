@@ -1,6 +1,5 @@
 #!/usr/bin/python3
-"""The `contacts` that the node publishes in simulated time: step by step, as poses of tips arrive, and at a fixed rate.
-Transforms that lag, and a clock that jumps. The sequences of messages are in test/ros/steps."""
+"""The `contacts` that the node publishes in simulated time. The sequences of messages are in test/node/steps."""
 
 import sys
 
@@ -76,45 +75,6 @@ class StepsTest(KeepsContract, SimulatedCase):
             result = self.node.contacts.wait_for(organ, 'grasper', mesh_stamp=stamp)
             self.assert_depth(result, depth_at(LOW))
             self.assertEqual(result.topology, topology)
-
-    def await_transform(self):
-        """Makes the patient node wait for the transform of the organ's last shape. Returns its client and the stamp."""
-        node = self.connected('/patient')
-        self.place('grasper', (at_height(HIGH), self.next_stamp()))
-        node.send_mesh(self.organ, SHEET, self.stamp)
-        self.assert_ok(node.contacts.wait_for(self.organ, 'grasper', mesh_stamp=self.stamp))
-        node.send_vertices(self.organ, SHEET, self.next_stamp())
-        node.wait_for_shape(self.organ, self.stamp)
-        self.assertEqual(node.contacts.of(self.organ, mesh_stamp=self.stamp), [])
-        return node, self.stamp
-
-    def test_a_transform_that_lags_is_awaited(self):
-        """The shape is evaluated as soon as the transform arrives. Meanwhile, services answer."""
-        node, stamp = self.await_transform()
-        self.assertEqual(node.query(self.organ, tool='grasper').status, ContactArray.OK)
-        self.place('grasper', (at_height(0.002), stamp))
-        result = node.contacts.wait_for(self.organ, 'grasper', mesh_stamp=stamp)
-        self.assert_step(result, SWEPT, depth_at(0.002))
-
-    def test_ticks(self):
-        """They come in the simulator's time, and not while it stands still. Of all ticks, only the one in which the tip
-        goes through the sheet finds its faces."""
-        node = self.connected('/ticking')
-        above, below = (((0.4, 0.007, height), (0.013, 0.007, height)) for height in (0.05, -0.05))
-        with self.clock.lock:
-            self.place('grasper', (above, self.next_stamp()))
-            node.bring(self.organ, SHEET, self.stamp)
-            node.contacts.wait_for(self.organ, 'grasper', status=ContactArray.OK)
-            self.place_and_wait('grasper', below, self.next_stamp())
-            before = len(node.contacts.of(self.organ))
-            for _ in range(10):
-                count = len(node.contacts.of(self.organ))
-                self.clock.tick()
-                wait_until(lambda: len(node.contacts.of(self.organ)) > count, 'one more tick')
-            answers = node.contacts.of(self.organ)
-            self.assertLessEqual(len(answers) - before, 10 + 5)  # A few are from before.
-            (hit,) = [answer for answer in answers if answer.contacts]
-            self.assert_step(hit, SWEPT, RADIUS + 0.05)
 
     def test_no_clock_and_no_stamp_ends_a_node(self):
         """The clock goes to the ends of what ROS can count, and messages have stamps from there. Afterwards, all nodes
