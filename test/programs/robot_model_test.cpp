@@ -89,22 +89,6 @@ TEST(RobotModel, LinksReadInPartAreRefused) {
   expect_words(refusal(robot_of("<box size='1 1'/>")), {"[1 1]"});
 }
 
-TEST(RobotModel, LinksInTheOrderOfTheirNamesWithTheirMeshes) {
-  std::vector<std::string> read;
-  const auto found = read_links(gripper(), {"shaft", "jaw", "shaft"}, "",
-                                [&](const std::string& mesh) { read.push_back(mesh); });
-  const std::string file = tool_file("jaw_binary.stl");
-  EXPECT_EQ(read, std::vector<std::string>{"link 'jaw': mesh '" + file + "'"});
-  ASSERT_EQ(found.size(), 3U);
-  EXPECT_EQ(found[0].shapes.size(), 2U);
-  EXPECT_EQ(found[2].shapes.size(), 2U);
-  const RobotShape& mesh = found[1].shapes.at(0);
-  EXPECT_EQ(mesh.kind, RobotShape::MESH);
-  EXPECT_EQ(mesh.file, file);
-  EXPECT_EQ(mesh.triangles.size(), 12U);
-  EXPECT_EQ(mesh.vertices.size(), 12U);
-}
-
 TEST(RobotModel, MeshesThatCannotBeRead) {
   const auto of_mesh = [](const std::string& file, const std::string& scale = "1 1 1") {
     return robot_of("<mesh filename='" + file + "' scale='" + scale + "'/>");

@@ -145,29 +145,6 @@ Tissue slab(double thickness) {
   return tissue;
 }
 
-Tissue bumps(double thickness) {
-  Tissue tissue;
-  tissue.add_solid(24, 16, false, [&](double u, double v, double w) {
-    const double x = 0.04 * (u - 0.5), y = 0.03 * (v - 0.5);
-    const double bump =
-        0.06 * std::min(thickness, 0.003) * std::sin(2100.0 * x) * std::cos(1900.0 * y);
-    return Vector3d(x, y, thickness * (w - 0.5) + bump);
-  });
-  return tissue;
-}
-
-/// A layer of half the thickness, folded around the y axis. The ridge points along x.
-Tissue fold(double thickness) {
-  Tissue tissue;
-  tissue.add_solid(40, 14, false, [&](double u, double v, double w) {
-    const double turn = std::clamp((u - 0.4) / 0.2, 0.0, 1.0) * M_PI - M_PI / 2;
-    const double straight = 0.03 * (std::max(0.0, 0.4 - u) + std::max(0.0, u - 0.6)) / 0.4;
-    const double radius = thickness * (0.1 + 0.4 * w);
-    return Vector3d(radius * std::cos(turn) - straight, 0.04 * (0.5 - v), radius * std::sin(turn));
-  });
-  return tissue;
-}
-
 constexpr double kLumen = 0.009;
 
 /// Along x, around a lumen.
@@ -214,14 +191,11 @@ constexpr GraspKind kKinds[] = {
     {"slab", slab, Way::kClose, 0.03, Expected::kGrasp},
     {"slab, oblique", slab, Way::kClose, 1.2, Expected::kAnything},
     {"closes on", slab, Way::kCloseOn, 0.3, Expected::kAnything},
-    {"fold", fold, Way::kClose, 0.03, Expected::kGrasp},
-    {"fold, oblique", fold, Way::kCloseOn, 0.8, Expected::kAnything},
     {"tube", tube, Way::kClose, 0.8, Expected::kAnything},
     {"wall of a tube", tube, Way::kInLumen, 0.03, Expected::kGrasp},
     {"spread in a lumen", tube, Way::kSpread, 0.03, Expected::kNothing},
     {"open sheet", sheet, Way::kClose, 0.03, Expected::kGrasp},
     {"open sheet, oblique", sheet, Way::kCloseOn, 0.8, Expected::kAnything},
-    {"bumps", bumps, Way::kClose, 0.03, Expected::kGrasp},
     {"forceps", egg, Way::kForceps, 0.1, Expected::kGrasp},
     {"wide forceps", egg, Way::kWideForceps, 0.1, Expected::kNothing},
     {"closed jaws poke", egg, Way::kPoke, 0.3, Expected::kNothing},
@@ -249,7 +223,6 @@ std::vector<Poses> closings(const GraspKind& kind, double thickness, double heig
   if (!in_tube) {
     tool.pretranslate(Vector3d(random.uniform(-0.002, 0.002), random.uniform(-0.002, 0.002), 0.0));
   }
-  if (kind.tissue == fold) tool.translation().x() -= 0.012;
   double tight = (kind.tissue == sheet        ? 0.0
                   : kind.way == Way::kInLumen ? 0.2 * thickness
                                               : thickness) -
@@ -274,7 +247,6 @@ std::vector<Poses> closings(const GraspKind& kind, double thickness, double heig
       const double away = std::max(0, std::max(-i, i - held) - 8) / 4.0;
       const double half = 0.5 * (tight + open * (wide - tight));
       Isometry3d at = tool;
-      if (kind.tissue == bumps) at.translate(Vector3d(0.0002 * i, 0.0001 * i, 0.0));
       at.pretranslate(from_above ? Vector3d(0.0, 0.0, 0.03 * away - depth)
                                  : Vector3d(0.1 * away, 0.0, 0.0));
       at.translate(random.point(2e-5));

@@ -185,6 +185,7 @@ TEST(Clearance, NearFacesAndFacesAroundAToolAreThoseOfExactDistances) {
     ClearanceScene scene(random);
     CollisionRequest& request = scene.request;
     request.mode = QueryMode::kStatic;
+    request.organ_before = nullptr;
     if (i % 3 == 0) {
       const GridSurface surface = shaken(liver(), 1e-4, random);
       scene.organ = mesh(random.chance(0.5) ? shuffled(surface, 3) : surface);

@@ -47,11 +47,6 @@ TEST(Conversions, FrameWithoutLeadingSlash) {
   }
 }
 
-Eigen::AlignedBox3d box(double x, double y, double z) {
-  const Eigen::Vector3d low(0.3, -7.0, 0.1);
-  return {low, low + Eigen::Vector3d(x, y, z)};
-}
-
 TEST(Clock, ItsEndsAreNoErrors) {
   const ros::Time last(4294967295, 999999999);
   EXPECT_EQ(later(ros::Time(10.0), 0.5), ros::Time(10.5));

@@ -1,7 +1,6 @@
 #include "common/threads/queues.hpp"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <future>
@@ -10,22 +9,6 @@
 
 namespace organ_collision {
 namespace {
-
-int niceness() { return getpriority(PRIO_PROCESS, 0); }
-
-TEST(RunInThreadOf, ActionsRunInTheOtherThreadAndAreWaitedFor) {
-  QueueThread other;
-  std::thread::id first;
-  run_in_thread_of(other.queue(), [&] { first = std::this_thread::get_id(); });
-  EXPECT_NE(first, std::this_thread::get_id());
-  for (int i = 0; i < 100; ++i) {
-    std::thread::id ran_in;
-    run_in_thread_of(other.queue(), [&] { ran_in = std::this_thread::get_id(); });
-    EXPECT_EQ(ran_in, first);
-  }
-  EXPECT_THROW(run_in_thread_of(other.queue(), [] { throw std::domain_error("no"); }),
-               std::domain_error);
-}
 
 TEST(RunInThreadOf, AQueueThatIsDisabledOrClearedEndsTheWait) {
   ros::CallbackQueue queue;

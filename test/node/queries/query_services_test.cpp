@@ -352,24 +352,6 @@ TEST_F(QueryServicesTest, RefusesWithStatusValueAndWhatIsLegal) {
                  "the batch has 4 motions; must be at most 3 (max_batch): ask in several batches");
 }
 
-TEST_F(QueryServicesTest, SweepsBackwardsInTimeAreRefused) {
-  request.tool = "hook";
-  request.motion = {};
-  send_tip(1.0, kAboveOrgan);
-  send_tip(1.2, kBelow);
-  send_vertices(1.125, 0.0);
-  evaluate();
-  request.header.stamp = ros::Time(1.0625);
-  expect_refused(kInvalid, {"'hook'", "1.062500000", "1.125000000"});
-  request.mode = ContactArray::STATIC;
-  EXPECT_EQ(services.query(request).status, ContactArray::OK);
-  request.mode = ContactArray::SWEPT;
-  request.header.stamp = ros::Time(1.125);
-  const ContactArray at_rest = services.query(request);
-  EXPECT_EQ(at_rest.status, ContactArray::OK) << at_rest.message;
-  EXPECT_EQ(at_rest.step_start, at_rest.header.stamp);
-}
-
 TEST_F(QueryServicesTest, RemovedOrganAndStaleMesh) {
   parameters.mesh_timeout_sec = 2.0;
   ros::Time::setNow(ros::Time::now() + ros::Duration(2.5));
@@ -379,18 +361,6 @@ TEST_F(QueryServicesTest, RemovedOrganAndStaleMesh) {
   nothing.organ = "liver";
   organs.apply(boost::make_shared<OrganMesh>(nothing), ros::Time(51));
   expect_refused(ContactArray::NO_MESH, {"'liver'"});
-}
-
-TEST_F(QueryServicesTest, WhatIsNoRejectionIsAnsweredToo) {
-  QueryServices broken(
-      {parameters, tools, pipeline}, [](const std::function<void()>&) { throw std::bad_alloc(); },
-      counters);
-  const ContactArray answer = broken.query(request);
-  EXPECT_EQ(answer.status, ContactArray::PICKER_FAILED);
-  EXPECT_EQ(answer.message, "the query failed: std::bad_alloc");
-  const QueryCollisionBatch::Response response = broken.query_batch(batch_of({through()}));
-  EXPECT_EQ(response.status, ContactArray::PICKER_FAILED);
-  EXPECT_EQ(response.message, "the query failed: std::bad_alloc");
 }
 
 TEST_F(BatchTest, EachMotionIsAnsweredInOrderAsAlone) {

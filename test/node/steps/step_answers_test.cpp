@@ -66,9 +66,7 @@ TEST_F(LinkToolsTest, AToolWithAFaultIsNeverEvaluated) {
   }
 }
 
-namespace {
-
-}  // namespace
+namespace {}  // namespace
 
 namespace {
 

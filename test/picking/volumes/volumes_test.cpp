@@ -256,14 +256,6 @@ TEST(ViewingVolume, HalfSpacesAgreeWithMatrixAndUserPlanes) {
   EXPECT_GT(outside, 10000);
 }
 
-/// [1] How far the middle of the face is inside all half-spaces, by the largest coordinate of the
-/// face. Clipping in 32 bits loses about 5e-7 of that.
-double depth_of_middle(const ViewingVolume& volume) {
-  const Triangle face = middle_face(volume);
-  const Vector3d middle = 0.25 * face[0] + 0.25 * face[1] + 0.5 * face[2];
-  return -excess(volume, volume.origin() + middle) / largest_coordinate(face);
-}
-
 /// A face whose middle is up to 1 cm from the tool's axis.
 Triangle random_face(const ShaftMotion& motion, Random& random) {
   Triangle face;
