@@ -250,30 +250,6 @@ TEST_P(MovingCores, WithoutBudgetNoTouchIsMissed) {
   EXPECT_GT(unresolved, 0);
 }
 
-TEST_P(MovingCores, ComeNearestOnlyWithinTheBound) {
-  for_each_trial(100, [](const LinkTrial& trial, Random& random) {
-    const FaceMotion face = oracle::motion_to(trial.face, random);
-    const RigidMotion motion = trial.motion();
-    const CoreMotion core(trial.core, motion);
-    const double slack = 1.1 * tolerance::kApproach + 1000.0 * oracle::rounding(trial);
-    WorkBudget unlimited = WorkBudget::unlimited();
-    constexpr double kAny = std::numeric_limits<double>::infinity();
-    const double least = closest_approach(core, face, kAny, unlimited)->closest.distance;
-    const double bound = least * random.uniform(0.5, 1.5);
-    const auto found = closest_approach(core, face, bound, unlimited);
-    if (bound > least + 2.0 * slack) {
-      ASSERT_TRUE(found);
-    }
-    if (bound < least - 2.0 * slack) {
-      ASSERT_FALSE(found);
-    }
-    if (!found) return;
-    EXPECT_LE(found->closest.distance, bound);
-    EXPECT_NEAR(found->closest.distance, least, slack);
-    EXPECT_NEAR(found->closest.distance, distance_at(trial, face, found->time), slack);
-  });
-}
-
 // Planes that keep core and face apart: one at rest during the whole leg, and one that turns from
 // one instant to another.
 TEST_P(SeparatedCores, StayBeyondThePlanes) {
