@@ -7,7 +7,24 @@ import tempfile
 import unittest
 
 PROGRAM = os.environ['QUERY_OFFLINE']
+MOTIONS_HEADER = ('query,mode,trocar_x,trocar_y,trocar_z,previous_x,previous_y,previous_z,'
+                  'tip_x,tip_y,tip_z,radius')
 CONTACTS_HEADER = 'query,face,fraction,depth,point_x,point_y,point_z,normal_x,normal_y,normal_z'
+
+
+def obj_text(mesh):
+    """An OBJ file of a mesh: `vertices`, and `faces` from 0."""
+    lines = ['v %r %r %r' % tuple(v) for v in mesh.vertices]
+    lines += ['f ' + ' '.join(str(i + 1) for i in face) for face in mesh.faces]
+    return '\n'.join(lines) + '\n'
+
+
+def motion_line(query, mode, trocar, previous, tip, radius):
+    return ','.join([str(query), mode] + [repr(x) for x in (*trocar, *previous, *tip, radius)])
+
+
+def motions_text(lines):
+    return '\n'.join([MOTIONS_HEADER] + list(lines)) + '\n'
 
 
 class ProgramCase(unittest.TestCase):

@@ -112,6 +112,12 @@ def messages(path, topic=CONTACTS):
         return [(at.to_sec(), message) for _, message, at in bag.read_messages([topic])]
 
 
+def serialized(path):
+    """The (topic, type, time, bytes) of all messages of a bag."""
+    with rosbag.Bag(path) as bag:
+        return [(topic, raw[0], at.to_nsec(), raw[1]) for topic, raw, at in bag.read_messages(raw=True)]
+
+
 class ReplayCase(ProgramCase, ContactCase):
     def setUp(self):
         super().setUp()

@@ -24,8 +24,9 @@ PACKAGE = roslib.packages.get_pkg_dir('organ_collision')
 # rospy's signal handler calls the ROS master, and waits forever if it interrupted such a call.
 FIRST_MESSAGES = {
     '/simulator': ('/organ_collision/organ_vertices', OrganVertices),
-    '/dvrk_robot': ('/PSM2/jaw/measured_js', JointState),
-    '/dvrk_organ': ('/organ_collision/organ_vertices', OrganVertices),
+    '/PSM1/joints': ('/PSM1/measured_js', JointState),
+    '/PSM2/joints': ('/PSM2/measured_js', JointState),
+    '/organ': ('/organ_collision/organ_mesh', OrganMesh),
     '/MTML/force': ('/MTML/body/servo_cf', WrenchStamped),
     '/MTMR/force': ('/MTMR/body/servo_cf', WrenchStamped),
 }
