@@ -96,6 +96,7 @@ class LiveChangesTest(KeepsContract, ToolCase):
             while thread.is_alive():
                 self.step(SHEET, {'kept': at_height(0.05 if steps % 2 else -0.05)}, vertices=True)
                 steps += 1
+                rospy.sleep(0.01)  # Otherwise the stamps of the steps run ahead of the clock.
             thread.join()
         self.assertFalse(answers[0].success)
         self.assertRegex(answers[0].message, 'robot_reader (was ended by signal|took more than 30 s)')
