@@ -75,7 +75,9 @@ bool least_is_right(const ToolStep& step, const CollisionResult& result, double&
   if (step.at_rest()) return found.least == found.distance;
   if (!result.contacts.empty()) {
     const double touch = tolerance::kConvexMargin + band;
-    return found.least == 0.0 && is_within(step, found.least_fraction, touch);
+    double first = 1.0;
+    for (const FaceContact& contact : result.contacts) first = std::min(first, contact.fraction);
+    return found.least == 0.0 && found.least_fraction == first && is_within(step, first, touch);
   }
   return is_within(step, found.least_fraction, found.least + band) &&
          stays_above(step, found.least - kInMotion, closest);

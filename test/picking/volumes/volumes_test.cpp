@@ -184,6 +184,29 @@ TEST(ConservativeVolume, ContainsTheSweptCapsule) {
   EXPECT_GT(cameras[1], 25'000);
 }
 
+// The volume exceeds the capsule at the corners of a box, and where a side of a wedge meets the far
+// plane at a small angle.
+TEST(ConservativeVolume, TakesInLittleMoreThanTheSweptCapsule) {
+  Random random(16);
+  int inside = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const ShaftMotion motion = random_motion(motion_kind(i), 0.3, random);
+    if (motion.start.trocar != motion.end.trocar) continue;
+    const double radius = random.scale(0.0005, 0.01);
+    const ViewingVolume volume = PartSweep(motion, radius).volume({});
+    const Triangle swept = {motion.start.trocar, motion.start.tip, motion.end.tip};
+    for (int k = 0; k < 50; ++k) {
+      const Vector3d point = motion.at(random.uniform(0, 1)).at(random.uniform(0, 1)) +
+                             radius * random.scale(0.5, 20) * random.direction();
+      if (excess(volume, point) > 0) continue;
+      ++inside;
+      const double distance = closest_points(ShaftAxis{point, point}, swept).distance;
+      EXPECT_LT(distance, radius * (is_perspective(volume) ? 6 : 1.75)) << motion << radius;
+    }
+  }
+  EXPECT_GT(inside, 50'000);
+}
+
 /// [m] The largest excess of a corner of a moving box at `time`.
 double excess(const ViewingVolume& volume, const MovingBox& moving, double time) {
   const Eigen::Isometry3d pose = moving.motion().at(time);
