@@ -31,9 +31,9 @@ how many broke which rule. Its service ~summary (std_srvs/Trigger) tells the sam
 
 What is checked: numbers are finite; fractions and places on the shaft are from 0 to 1; normals have
 length 1; barycentric coordinates are from 0 to 1, with the sum 1; links and faces exist; contacts
-rise by face and link, near faces by distance; names are legal; a failure has a message and nothing
-else; static answers have no time but one; clearance and placement agree with themselves; a swept
-step begins where the last successful step of its organ and tool ended.
+rise by face and link, near faces by distance; a failure has a message and nothing else; static
+answers have no time but one; a swept step begins where the last successful step of its organ and
+tool ended.
 
   --seconds S  how long to watch, by the wall clock; until Ctrl-C by default
   --help       this text

@@ -1,5 +1,4 @@
-// Files and buffers: mesh files and the CSV files with motions of query_offline, the yaml files
-// with parameters of replay and of all nodes, and OpenGL's feedback buffer.
+// Files that users write: mesh files, and the CSV files with motions of query_offline.
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -8,14 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "common/messages/robot_reply.hpp"
 #include "common/program/user_input.hpp"
 #include "fuzz_input.hpp"
-#include "haptics/haptic_proxy_parameters.hpp"
-#include "picking/gl/drawing.hpp"
 #include "programs/mesh_reader/mesh_reader.hpp"
 #include "programs/query_offline/motions.hpp"
-#include "programs/replay/yaml_parameters.hpp"
 
 using namespace organ_collision;
 
@@ -45,32 +40,6 @@ void answer(const Motion& motion) {
   }
 }
 
-const FuzzTarget feedback_target("feedback", [](const std::uint8_t* data, std::size_t size) {
-  FuzzInput input(data, size);
-  // As GL: at most as many as the buffer has.
-  const std::size_t spare = input.byte() % 16;
-  std::vector<float> buffer;
-  while (!input.empty()) buffer.push_back(input.number<float>());
-  const std::size_t written = buffer.size() - std::min(spare, buffer.size());
-  buffer.shrink_to_fit();
-  std::size_t vertices = 0;
-  double sum = 0.0;
-  try {
-    for_each_vertex(buffer, written, [&](std::uint32_t face, double depth) {
-      sum += depth + face;
-      ++vertices;
-    });
-  } catch (const GlError&) {
-  }
-  demand(vertices * kVertexFloats <= written, "each vertex is within the buffer");
-  try {
-    std::size_t corners = 0;
-    for (const FacePart& part : read_parts(buffer, written)) corners += part.size();
-    demand(corners * kVertexFloats <= written, "each corner is within the buffer");
-  } catch (const GlError&) {
-  }
-});
-
 const FuzzTarget motion_file_target("motion_file", [](const std::uint8_t* data, std::size_t size) {
   const std::string path = memory_file(FuzzInput(data, size).rest());
   try {
@@ -97,50 +66,6 @@ const FuzzTarget mesh_file_target("mesh_file", [](const std::uint8_t* data, std:
     }
   } catch (const InputError& error) {
     demand(std::string(error.what()).find(file + ":") == 0, "an error names the file");
-  }
-});
-
-/// Loads parameters. A refusal says what is wrong.
-template <typename Load>
-void load(const Load& load) {
-  try {
-    load();
-  } catch (const ParameterError& error) {
-    demand(*error.what() != '\0', "a refusal has a text");
-  } catch (const ToolError&) {
-  }
-}
-
-void check(const NodeParameters& parameters) {
-  demand(parameters.max_faces > 0 && parameters.motion_samples_max > 0, "limits are positive");
-  for (const ToolParameters& tool : parameters.tools) {
-    demand(!tool.name.empty() && (tool.has_shaft() || !tool.links.empty()), "tools are whole");
-    demand(!tool.has_shaft() || tool.radius > 0.0, "radii are positive");
-  }
-}
-
-/// The file is a tree of values of any types, as the parameter server may hold it for any node.
-void load_all(const YamlParameters& file) {
-  const XmlRpc::XmlRpcValue& all = file.group();
-  load([&] {
-    NodeParameters parameters = file.node_parameters();
-    check(parameters);
-    table_of(parameters).change(all);
-    for (const ToolParameters& tool : parameters.tools) file.find_text(tool.robot_description);
-  });
-  load([&] {
-    auto parameters = parse_parameters<HapticProxyParameters>(all);
-    demand(parameters.max_force > 0.0, "the largest force is positive");
-    for (const ToolParameters& tool : parameters.tools) proxy_settings(parameters, tool);
-    table_of(parameters).change(all);
-  });
-}
-
-const FuzzTarget parameters_target("parameters", [](const std::uint8_t* data, std::size_t size) {
-  const std::string path = memory_file(FuzzInput(data, size).rest());
-  try {
-    load_all(YamlParameters(path, "/organ_collision"));
-  } catch (const InputError&) {
   }
 });
 

@@ -53,9 +53,6 @@ class FuzzInput {
   }
   std::string rest() { return text(left_); }
 
-  /// The next bytes, at most as many as two bytes before them say.
-  std::string sized_text() { return text(number<std::uint16_t>()); }
-
  private:
   void skip(std::size_t size) {
     data_ += size;

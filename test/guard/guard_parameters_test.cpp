@@ -25,25 +25,6 @@ XmlRpcValue row(const char* key, const std::string& value, const std::string& or
   return list;
 }
 
-TEST(GuardParameters, RowsAreTaken) {
-  XmlRpcValue all = legal_parameters<GuardParameters>();
-  all["tools"][0] = "hook";
-  all["keep"] = row("side", "inside", "colon");
-  all["touch_allowed"] = row("link", "shaft");
-  const auto taken = parse_parameters<GuardParameters>(all);
-  EXPECT_EQ(taken.tools, std::vector<std::string>{"hook"});
-  EXPECT_EQ(taken.keep, (std::map<std::string, KeptSide>{{"colon", KeptSide::kInside}}));
-  EXPECT_EQ(taken.touch_allowed,
-            (std::set<std::pair<std::string, std::string>>{{"liver", "shaft"}}));
-  EXPECT_TRUE(taken.misspelt.empty());
-  all["touch_allowed"][0]["links"] = "jaw";
-  expect_words(refusal_of<GuardParameters>("touch_allowed", all["touch_allowed"]),
-               {"~touch_allowed[0]/links is no parameter", "'link'"});
-  all["keep"][0]["sides"] = "inside";
-  expect_words(refusal_of<GuardParameters>("keep", all["keep"]),
-               {"~keep[0]/sides is no parameter", "'side'"});
-}
-
 // The receiver of the states has these, too. Were one changed here alone, the receiver would move
 // the tool faster than the guard allows.
 TEST(GuardParameters, WhatTheReceiverHasAsWellIsNotLive) {

@@ -60,24 +60,5 @@ TEST_F(ToolGuardRetreatTest, AnotherOrganMayCloseTheWayOut) {
   EXPECT_EQ(out_beside(0.0012, 1.0, "other"), 0.0) << "its direction is not known";
 }
 
-TEST_F(ToolGuardRetreatTest, TheSameOrganMayCloseTheWayOut) {
-  const auto beside = [&](double distance, double z, double x = 0.6) {
-    return way([&](ContactArray& a) {
-      Contact& wall = a.near.emplace_back(a.near[0]);
-      wall.face = 8;
-      wall.depth = -distance;
-      wall.normal = vector(x, 0, z);
-    });
-  };
-  const Vector3d down(0, 0, -1), none(0, 0, 0);
-  const Vector3d out = beside(0.0012, -0.8);
-  EXPECT_NEAR(out.norm(), 1.0, 1e-12);
-  EXPECT_GT(out.z() * -1.0, 0.0) << "the opposite wall is near: out between both";
-  EXPECT_GT(out.dot(Vector3d(-0.6, 0.0, 0.8)), 0.0);
-  EXPECT_EQ(beside(0.0012, -1.0, 0.0), none) << "no way leads from both";
-  EXPECT_EQ(beside(0.02, -0.8), down) << "it is far";
-  EXPECT_EQ(beside(0.0012, 0.8), down) << "the same wall";
-}
-
 }  // namespace
 }  // namespace organ_collision

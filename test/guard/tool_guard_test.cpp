@@ -30,13 +30,6 @@ TEST_F(ToolGuardTest, TheScaleIsThatOfTheMessage) {
               1e-12);
 }
 
-TEST_F(ToolGuardTest, WithoutTheTissuesVelocityTheFastestIsAssumed) {
-  list({organ("liver")});
-  ContactArray a = answer(0.02);
-  a.near.clear();
-  EXPECT_NEAR(after(a).speed_scale, (formula(0.02) - parameters_.tissue_speed) / 0.1, 1e-12);
-}
-
 TEST_F(ToolGuardTest, EachCauseStopsTheToolAndIsNamed) {
   const struct {
     std::vector<std::string> words;
@@ -235,43 +228,6 @@ TEST_F(ToolGuardTest, TheScaleFallsAtOnceAndRisesAfterATime) {
   }
   time_ = stopped + 0.101;
   EXPECT_EQ(after(answer(0.04)).stage, GuardState::CLEAR);
-}
-
-TEST_F(ToolGuardTest, AToolMissesWhatTheGuardNeeds) {
-  GuardParameters p;
-  EXPECT_EQ(ToolGuard::missing_in(tool_, p), "");
-  ToolInfo tool = tool_;
-  tool.margin = 0.0;
-  expect_words(ToolGuard::missing_in(tool, p), {"`margin`", "~tools"});
-  tool = tool_;
-  tool.radius = 0.0;
-  EXPECT_EQ(ToolGuard::missing_in(tool, p), "") << "`keep` says nothing";
-  p.keep = {{"net", KeptSide::kEither}};
-  EXPECT_EQ(ToolGuard::missing_in(tool, p), "");
-  p.keep["colon"] = KeptSide::kInside;
-  expect_words(ToolGuard::missing_in(tool, p), {"`tip_frame`", "'colon'", "either", "~tools"});
-  tool.tip_frame = "tip";
-  EXPECT_EQ(ToolGuard::missing_in(tool, p), "");
-}
-
-TEST_F(ToolGuardTest, AToolWithoutATipIsGuardedWithoutItsSide) {
-  ToolInfo links = tool_;
-  links.radius = 0.0;
-  guard_.set_tool(links);
-  list({organ("liver")});
-  ContactArray a = answer(0.04);
-  a.placement.tip = a.placement.trocar = ToolPlacement::UNKNOWN;
-  EXPECT_EQ(after(a).stage, GuardState::CLEAR);
-  a = answer(0.0005);
-  a.placement.tip = ToolPlacement::UNKNOWN;
-  const GuardState near = after(a);
-  expect_stop(near, {"0.0005 m"});
-  EXPECT_EQ(near.retreat.z, -1.0);
-  rest();
-  parameters_.keep = {{"liver", KeptSide::kOutside}};
-  a = answer(0.04);
-  a.placement.tip = ToolPlacement::UNKNOWN;
-  expect_stop(after(a), {"unknown"});
 }
 
 TEST_F(ToolGuardTest, WhatIsNotListedCountsWhereTheListEnds) {

@@ -94,32 +94,5 @@ TEST(ForceLaw, ForgetsARidgeThatIsADiameterBehind) {
   }
 }
 
-TEST(ForceLaw, OnFlatTissueOfSeparateFacesPushesAlongTheNormal) {
-  Random random(52);
-  for (int trial = 0; trial < 8; ++trial) {
-    GridSurface sheet = sheet_of_cells([](double, double) { return 0.0; }, random);
-    for (std::size_t i = 0; i < sheet.vertices.size(); i += 3) {
-      for (std::size_t k = i; k < i + 2; ++k) {
-        sheet.vertices[k] += static_cast<float>(random.uniform(-1.5e-3, 1.5e-3));
-      }
-    }
-    Ball ball(organ_of(unwelded(sheet)), random);
-    const double depth = random.uniform(1e-4, 4e-3);
-    Vector3d center(0.0, 0.0, kStop - depth);
-    ball.pressed_anew(center);
-    for (int leg = 0; leg < 4; ++leg) {
-      const Vector3d to(random.uniform(-0.08, 0.08), random.uniform(-0.08, 0.08), center.z());
-      const int ticks = static_cast<int>((to - center).norm() / (1e-3 * random.scale(0.05, 0.5)));
-      const Vector3d step = (to - center) / (ticks + 1);
-      for (int tick = 0; tick <= ticks; ++tick) {
-        center += step;
-        const Vector3d force = ball.force_at(center);
-        ASSERT_NEAR(force.z(), kSpring * depth, 0.01 * kSpring * depth) << depth;
-        ASSERT_LT(force.head<2>().norm(), 0.01 * force.z()) << center.transpose();
-      }
-    }
-  }
-}
-
 }  // namespace
 }  // namespace organ_collision

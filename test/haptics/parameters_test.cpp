@@ -28,24 +28,6 @@ XmlRpcValue kept(const XmlRpcValue& organ, const XmlRpcValue& side) {
   return entry;
 }
 
-TEST(HapticParameters, AreTaken) {
-  XmlRpcValue all = legal_parameters<HapticProxyParameters>();
-  EXPECT_EQ(parse_parameters<HapticProxyParameters>(all).frame, "");
-  all["frame"] = "/world";
-  all["picker"] = "cpu";
-  const auto proxy = parse_parameters<HapticProxyParameters>(all);
-  EXPECT_EQ(proxy.frame, "world");
-  EXPECT_EQ(proxy.picker.kind, PickerKind::kCpu);
-  EXPECT_TRUE(proxy.keep.empty());
-  all["keep"][0] = kept("left bladder", "inside");
-  all["keep"][1] = kept("colon", "either");
-  all["keep"][2] = kept("liver", "outside");
-  const auto with = parse_parameters<HapticProxyParameters>(all);
-  EXPECT_EQ(with.keep, (std::map<std::string, Side>{{"left bladder", Side::kInside},
-                                                    {"colon", Side::kUnknown},
-                                                    {"liver", Side::kOutside}}));
-}
-
 TEST(HapticParameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
   EXPECT_EQ(refusal_of<HapticProxyParameters>("frame", "/"),
             "~frame is '/'; must be the name of a TF frame");
@@ -171,45 +153,6 @@ TEST(HapticParameters, IllegalEntriesOfClearanceAreNamed) {
   entry = clearance("liver", "jaw", 1e-3);
   entry["organs"] = "liver";
   expect_words(refusal(entry), {"~clearance[1]/organs is no parameter", "'organ'"});
-}
-
-TEST(HapticParameters, AListOfClearancesStaysUntilAnotherOneOrANumberComes) {
-  XmlRpcValue all = with_clearances();
-  all["clearance"][0] = clearance("liver", "jaw", 2e-3);
-  all["clearance"][1] = clearance("", "", 5e-4);
-  auto p = parse_parameters<HapticProxyParameters>(all);
-  const ParameterTable table = table_of(p);
-  XmlRpcValue change;
-  change["stiffness"] = 100.0;
-  change["clearance"] = 5e-4;  // as it is
-  table.change(change);
-  EXPECT_EQ(clearance_of(p, "liver", "jaw"), 2e-3);
-  all["clearance"][0]["value"] = 3e-3;
-  all["keep"][0] = kept("liver", "inside");
-  EXPECT_EQ(table.read_lists(all).size(), 2u);
-  EXPECT_EQ(p.keep, (std::map<std::string, Side>{{"liver", Side::kInside}}));
-  EXPECT_EQ(clearance_of(p, "liver", "jaw"), 3e-3);
-  all["clearance"][0]["link"] = "jaws";
-  EXPECT_THROW(table.read_lists(all), ParameterError);
-  EXPECT_EQ(clearance_of(p, "liver", "jaw"), 3e-3);
-  EXPECT_EQ(clearance_of(p, "liver", "wrist"), 5e-4);
-  for (const XmlRpcValue& refused : {XmlRpcValue(5.0), XmlRpcValue("5 mm")}) {
-    all["clearance"] = refused;
-    EXPECT_THROW(table.read_lists(all), ParameterError);
-    EXPECT_EQ(clearance_of(p, "liver", "jaw"), 3e-3) << "a refused number leaves the list";
-  }
-  all["clearance"] = 6e-4;
-  all["keep"][0]["sides"] = "either";
-  expect_words(refusal_by<ParameterError>([&] { table.read_lists(all); }), {"~keep[0]/sides"});
-  EXPECT_EQ(clearance_of(p, "liver", "jaw"), 3e-3) << "what is refused leaves the other list";
-  EXPECT_EQ(p.keep.size(), 1u);
-  XmlRpcValue without = legal_parameters<HapticProxyParameters>();
-  EXPECT_EQ(table.read_lists(without),
-            (std::vector<std::string>{"clearance is default", "keep is default"}));
-  EXPECT_TRUE(p.keep.empty());
-  change["clearance"] = 7e-4;
-  table.change(change);
-  EXPECT_EQ(clearance_of(p, "liver", "jaw"), 7e-4);
 }
 
 TEST(HapticParameters, ForcesBecomeLengths) {

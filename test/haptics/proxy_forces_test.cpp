@@ -73,15 +73,6 @@ class ProxyForcesTest : public testing::Test {
 
 }  // namespace
 
-TEST_F(ProxyForcesTest, AProxyWithoutContactsIsHeldByNothing) {
-  answer_.pull = random_vector(0.01);
-  answer_.twist = random_vector(1e-4);
-  for (const OrganForce& of_organ : forces(ProxyFreedom::kFree, random_vector(1.0))) {
-    EXPECT_TRUE(of_organ.is_zero());
-    EXPECT_EQ(of_organ.topology, 5U);
-  }
-}
-
 TEST_F(ProxyForcesTest, OnAFreeToolTheyAreTheSumsOverTheFaces) {
   for (int trial = 0; trial < 100; ++trial) {
     answer_.contacts = {contact(0, 0.003, random_vector(1.0).normalized()),
@@ -105,26 +96,6 @@ TEST_F(ProxyForcesTest, OnAFreeToolTheyAreTheSumsOverTheFaces) {
     expect_near(torque_of(found), about_proxy);
     if (trial % 2 == 1) continue;
     EXPECT_LT((force_of(found) - normal_forces).norm(), 1e-4);
-  }
-}
-
-// A ball that slides: its centre is beside the place of the hand's centre.
-TEST_F(ProxyForcesTest, ABallHasNoTorqueAndNoGreaterForceThanItsLoads) {
-  for (int trial = 0; trial < 1000; ++trial) {
-    answer_.contacts.clear();
-    double loads = 0.0;
-    const double radius = std::pow(10.0, -trial % 4), depth = radius * 0.5 * (trial % 5);
-    const Vector3d middle = place(0) + radius * random_vector(1.0).normalized();
-    answer_.center = middle + depth * random_vector(1.0);
-    answer_.pull = middle - answer_.center;
-    for (std::size_t organ = 0; organ < 2; ++organ) {
-      const double load = organ == 0 ? 1.0 : 0.1 * (trial % 3);
-      loads += kStiffness * load;
-      answer_.contacts.push_back(contact(organ, load, (place(organ) - middle).normalized()));
-    }
-    const std::vector<OrganForce> found = forces(ProxyFreedom::kFree);
-    EXPECT_LT(torque_of(found).norm(), 1e-9 * loads);
-    EXPECT_LT(force_of(found).norm(), 2.0 * loads);
   }
 }
 

@@ -81,24 +81,6 @@ TEST(ProxyMarkers, ShowAHeldProxySolidAndASpringToItsTranslucentHand) {
   EXPECT_DOUBLE_EQ(text.pose.position.x, 0.1);
 }
 
-TEST(ProxyMarkers, ShowEachLoadAsAnArrowTheLongestForTheGreatest) {
-  ProxyView view = held_hook();
-  ProxyFace other = view.answer.contacts.front();
-  other.contact.point = {0.5, 0.2, 0.0};
-  other.contact.normal = {1.0, 0.0, 0.0};
-  other.load = 0.005;
-  view.answer.contacts.push_back(other);
-  view.answer.crossings = {{0, 7, {0.2, 0.3, 0.5}, 0.8, {0.1, 0.3, 0.0}, {0.0, 0.0, -0.01}}};
-  const std::vector<Marker> arrows = drawn(view).of("loads");
-  ASSERT_EQ(arrows.size(), 3u);
-  const Vector3d tails[] = {{0.1, 0.2, 0.02}, {0.495, 0.2, 0.0}, {0.1, 0.3, 0.01}};
-  const Vector3d heads[] = {{0.1, 0.2, 0.0}, {0.5, 0.2, 0.0}, {0.1, 0.3, 0.0}};
-  for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_TRUE(point(arrows[i], 0).isApprox(tails[i], 1e-12)) << i;
-    EXPECT_TRUE(point(arrows[i], 1).isApprox(heads[i], 1e-12)) << i;
-  }
-}
-
 TEST(ProxyMarkers, ShowNoHandOfAFreeProxyAndNoProxyWithoutAnAnswer) {
   ProxyView view = held_hook();
   view.answer.state = ProxyStatus::kFree;
@@ -120,15 +102,4 @@ TEST(ProxyMarkers, ShowNoHandOfAFreeProxyAndNoProxyWithoutAnAnswer) {
   EXPECT_EQ(state.color, colours::kFailure);
   view.hand.reset();
   EXPECT_EQ(drawn(view).namespaces(), (Names{"state"}));
-}
-
-TEST(ProxyMarkers, ShowAColourAndANameForEachStateOfAProxy) {
-  Names names;
-  std::set<float> colours;
-  for (int state = 0; state <= 4; ++state) {
-    names.insert(name_of(static_cast<ProxyStatus>(state)));
-    colours.insert(colour_of(static_cast<ProxyStatus>(state)).b);
-  }
-  EXPECT_EQ(names, (Names{"NO_ANSWER", "FREE", "TOUCHING", "SQUEEZED", "PUNCTURED"}));
-  EXPECT_EQ(colours.size(), 5u);
 }

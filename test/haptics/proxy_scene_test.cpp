@@ -81,10 +81,6 @@ TEST_F(ProxySceneTest, TheFrameIsThatOfTheFirstOrganAndStays) {
   }
 }
 
-TEST_F(ProxySceneTest, WithoutAnOrganThereIsNone) {
-  expect_refused("liver_frame", {}, ContactArray::NO_MESH, "there is no organ");
-}
-
 TEST_F(ProxySceneTest, HasEachOrganWithItsLatestShapeAndPose) {
   apply(mesh("liver"), ros::Time(7));
   OrganMesh moved = mesh("kidney");
@@ -104,27 +100,9 @@ TEST_F(ProxySceneTest, HasEachOrganWithItsLatestShapeAndPose) {
   EXPECT_EQ(found.motions[0].stamp, store_.at("kidney").latest().stamp);
 }
 
-TEST_F(ProxySceneTest, OrgansAreWhereTheyWereAtATime) {
-  apply(new_mesh(), ros::Time(7));
-  for (const double stamp : {6.0, 7.0}) {
-    set_point(transforms_, "world", "liver_frame", stamp, {stamp, 0.0, 0.0});
-  }
-  for (const auto& [at, x] : {std::pair(6.25, 6.25), {7.0, 7.0}, {0.0, 7.0}, {7.5, 7.0}}) {
-    const ProxyScene scene =
-        proxy_scene(store_, transforms_, "world", {}, ros::Time(8), latest_shape, ros::Time(at));
-    EXPECT_NEAR(scene.organs[0].T_organ_proxy.translation().x(), -x, 1e-9) << at;
-  }
-}
-
 TEST_F(ProxySceneTest, AnOrganWithoutATransformIsNamed) {
   apply(mesh("liver"), ros::Time(7));
   expect_refused("world", {}, ContactArray::NO_TRANSFORM, "organ 'liver': frame");
-}
-
-TEST_F(ProxySceneTest, AnOldMeshIsRefused) {
-  apply(mesh("liver"), ros::Time(5));
-  EXPECT_NO_THROW(scene("liver_frame", {3.5, 0.0}));
-  expect_refused("liver_frame", {2.5, 0.0}, ContactArray::STALE_MESH, "mesh_timeout_sec");
 }
 
 /// The stamps do not count: the clocks of the senders differ.
@@ -156,25 +134,6 @@ TEST_F(ProxySceneTest, AnOldFrameIsRefusedAndNamed) {
   }
   EXPECT_NO_THROW(scene("table", {0.0, 0.5})) << "the table carries both";
   expect_refused("stand", {0.0, 1.6}, ContactArray::STALE_MESH, "frame 'stand' came 1.8 s ago");
-}
-
-TEST_F(ProxySceneTest, AStaticFrameHasNoAge) {
-  apply(new_mesh(), ros::Time(7));
-  set_point(transforms_, "world", "liver_frame", 1.0, {0.1, 0.2, 0.3}, true);
-  EXPECT_NO_THROW(scene("world", {2.0, 0.5}));
-  EXPECT_EQ(scene("world").stamps, std::vector<ros::Time>{ros::Time()});
-}
-
-TEST_F(ProxySceneTest, TheProxysOwnFrameAgesAgainstTheTool) {
-  send_frame(6.0, "world", "liver_frame");
-  send_frame(7.9, "world", "tip");
-  send_frame(7.0, "liver_frame", "trocar");
-  const auto check = [this](const TransformBuffer::Frames& tool_frames) {
-    check_age(transforms_, "liver_frame", tool_frames, {0.0, 0.5}, ros::Time(8));
-  };
-  EXPECT_THROW(check({"tip"}), Rejection);
-  EXPECT_THROW(check({"trocar", "tip"}), Rejection);
-  EXPECT_NO_THROW(check({"trocar"})) << "the frame of the organ carries it";
 }
 
 /// The organ's shape rises by 0.5 m/s, and TF carries its frame by 1 m/s along x.
@@ -212,37 +171,6 @@ TEST_F(ProxySceneTest, TissueMovesWithItsShapeAndWithItsFrame) {
     EXPECT_LE(told.advance(contact), told.most_advance);
     EXPECT_LE(told.approach(contact), told.most_approach);
   }
-}
-
-/// Neither its velocity nor the proxy takes the way between both shapes for a motion.
-TEST_F(ProxySceneTest, TheOrganOfARestartedSenderIsAnotherOrganAtRest) {
-  using std::chrono::milliseconds;
-  OrganInterpolation shapes;
-  const OrganInterpolation::Time start{std::chrono::hours(1)};
-  OrganMesh message = new_mesh();
-  ros::M_stringPtr connection = header();
-  const auto send = [&](double time, float height) {
-    message.header.stamp = ros::Time(time);
-    for (std::size_t i = 2; i < message.vertices.size(); i += 3) message.vertices[i] = height;
-    apply(message, ros::Time(time), connection);
-    shapes.update(store_, start + milliseconds(std::lround(1e3 * time)));
-  };
-  send(7.90, 0.0F);
-  send(7.92, 0.01F);
-  const ProxyScene before = scene("liver_frame");
-  EXPECT_TRUE(before.motions[0].shape_before);
-  EXPECT_EQ(before.organs[0].name, "liver");
-  connection = header();
-  send(7.94, 0.5F);
-  const ProxyScene after = scene("liver_frame");
-  EXPECT_FALSE(after.motions[0].shape_before);
-  EXPECT_NE(after.organs[0].name, "liver");
-  EXPECT_EQ(after.sources[0]->name(), "liver");
-  EXPECT_EQ(shapes.shape(store_.at("liver"), start + milliseconds(7940))->vertices()[2], 0.5F);
-  EXPECT_FALSE(shapes.is_moving(start + milliseconds(7940)));
-  send(7.96, 0.51F);
-  EXPECT_EQ(scene("liver_frame").organs[0].name, after.organs[0].name);
-  EXPECT_TRUE(shapes.is_moving(start + milliseconds(7960)));
 }
 
 /// Heights of the first vertex [m], in milliseconds after each shape.

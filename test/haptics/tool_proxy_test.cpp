@@ -117,46 +117,6 @@ TEST_F(ToolProxyTest, WithoutAnAnswerTheForceFadesAndComesBack) {
   EXPECT_FALSE(proxy.is_fading());
 }
 
-/// What makes a force jump, on a tool that presses with `whole` newtons.
-TEST_F(ToolProxyTest, NoEventMakesTheForceChangeFasterThanItsLimit) {
-  const struct {
-    const char* name;
-    std::function<void()> happens;
-    double height;  ///< [m] of the hand from then on
-    bool is_free;   ///< then
-  } events[] = {
-      {"the hand jumps", [] {}, 0.2, true},
-      {"the stiffness changes", [&] { parameters_.stiffness = 3000.0; }, -0.01, false},
-      {"the organ's frame jumps", [&] { scene_.organs[0].T_organ_proxy.translation().z() = 0.1; },
-       -0.01, true},
-      {"the organ is removed", [&] { scene_.organs.clear(), scene_.sources.clear(); }, -0.01, true},
-      {"the hand slips far along the tissue", [] {}, -0.011, false},
-  };
-  for (const auto& event : events) {
-    SCOPED_TRACE(event.name);
-    const HapticProxyParameters before = parameters_;
-    const ProxyScene scene = scene_;
-    ToolProxy proxy(tool_, parameters_);
-    press(proxy, -0.01);
-    parameters_.max_force_rate = 400.0;
-    double last = spring(-0.01);
-    event.happens();
-    proxy.update_settings();
-    int ticks = 0;
-    bool is_fading = true;
-    for (; is_fading && ticks < 200; ++ticks) {
-      const ProxyReport report = follow(proxy, event.height, 1.0);
-      EXPECT_LE(std::abs(force(report) - last), 0.4 + kTolerance) << "tick " << ticks;
-      last = force(report);
-      is_fading = report.is_fading;
-    }
-    EXPECT_LT(ticks, 200);
-    EXPECT_EQ(last == 0.0, event.is_free) << "not fading, and free, means no force";
-    parameters_ = before;
-    scene_ = scene;
-  }
-}
-
 TEST_F(ToolProxyTest, AForceMovesWithItsFrame) {
   ToolProxy proxy(tool_, parameters_);
   press(proxy, -0.01);
@@ -171,31 +131,6 @@ TEST_F(ToolProxyTest, AForceMovesWithItsFrame) {
   const Vector3d tip = T_new_old * Vector3d(0.011, -0.007, -0.01);
   EXPECT_LT((report.center - tip).norm(), 1e-12);
   EXPECT_LT((report.hand->axis.tip - tip).norm(), 1e-12) << "drivers move the torque to the tip";
-}
-
-TEST_F(ToolProxyTest, ALowerLimitAndTheEndOutrankTheRate) {
-  for (const bool ends : {false, true}) {
-    ToolProxy proxy(tool_, parameters_);
-    press(proxy, -0.01);
-    const HapticProxyParameters before = parameters_;
-    parameters_.max_force = ends ? kUnlimited : 1e-6;
-    parameters_.max_force_rate = ends ? 10.0 : 0.0;
-    if (ends) {
-      proxy.let_go();
-    } else {
-      proxy.update_settings();
-    }
-    EXPECT_TRUE(ends || proxy.is_fading()) << "so that the node makes a tick at once";
-    double last = spring(-0.01);
-    for (int tick = 0; tick < 12; ++tick) {
-      const ProxyReport report = ends ? lose(proxy, 1.0) : follow(proxy, -0.01, 1.0);
-      EXPECT_LE(last - force(report), 0.2 * spring(-0.01)) << "no leap";
-      last = force(report);
-      EXPECT_LE(last, tick < 10 ? kUnlimited : ends ? 0.0 : 1e-6 + 1e-12);
-    }
-    EXPECT_FALSE(proxy.is_fading());
-    parameters_ = before;
-  }
 }
 
 // The simulator sends no shape any more.
@@ -219,54 +154,6 @@ TEST_F(ToolProxyTest, OfAToolInLockstepALowerLimitHoldsAtOnceWithoutAShape) {
     parameters_ = before;
     EXPECT_NEAR(force(follow(proxy, -0.01)), spring(-0.01), kTolerance) << "the next shape";
   }
-}
-
-TEST_F(ToolProxyTest, WhenTheProxyIsPlacedAnewTheReasonIsTold) {
-  ToolProxy proxy(tool_, parameters_);
-  press(proxy, -0.01);
-  const ProxyReport jumped = follow(proxy, 0.2, 1.0);
-  EXPECT_TRUE(jumped.answer->is_placed_anew);
-  EXPECT_NE(jumped.message, "");
-}
-
-TEST_F(ToolProxyTest, LargeForcesAreClippedWithTheirTorqueAndTheForcesOnTheTissue) {
-  parameters_.max_force = 0.5;
-  ToolProxy proxy(tool_, parameters_);
-  press(proxy, -0.02);
-  const ProxyReport report = follow(proxy, -0.02);
-  EXPECT_STREQ(report.clipped_by, "max_force");
-  EXPECT_NEAR(force(report), 0.5, 1e-9);
-  EXPECT_TRUE(torque_of(report.forces).isZero(0.0));
-  EXPECT_NEAR(report.forces[0].on_faces[0].force.z(), 0.5, kTolerance);
-  for (int tick = 0; tick < 5; ++tick) follow(proxy, 0.02);
-  EXPECT_EQ(follow(proxy, 0.02).clipped_by, nullptr);
-}
-
-TEST_F(ToolProxyTest, TheTorqueOnAFreeToolIsClippedWithTheForce) {
-  tool_.parameters.freedom = ProxyFreedom::kFree;
-  parameters_.max_torque = 0.05;
-  ToolProxy proxy(tool_, parameters_);
-  press(proxy, -0.02);
-  const ProxyReport report = follow(proxy, -0.02);
-  ASSERT_STREQ(report.clipped_by, "max_torque");
-  const ProxyAnswer& answer = *report.answer;
-  EXPECT_NEAR(torque_of(report.forces).norm(), 0.05, 1e-9);
-  const double share = 0.05 / (parameters_.stiffness * answer.twist.norm());
-  const Vector3d force = share * parameters_.stiffness * answer.pull;
-  EXPECT_LT((force_of(report.forces) - force).norm(), 1e-3);
-}
-
-TEST_F(ToolProxyTest, IfTheProxyHasNoPlaceThereIsNoAnswerAndTheForceFades) {
-  ToolProxy proxy(tool_, parameters_);
-  press(proxy, -0.01);
-  parameters_.max_force_rate = 500.0;
-  pass(1.0);
-  const Vector3d in_the_sheet(0.02, 0.01, 0.0), tip(0.011, -0.007, 0.1);
-  const auto place = [&] { proxy.follow({{{in_the_sheet, tip}}, stamp_}, scene_, now_); };
-  expect_words(refusal_by<Rejection>(place), {"the trocar is in tissue"});
-  EXPECT_NEAR(force(lose(proxy, 0.0)), spring(-0.01) - 0.5, kTolerance);
-  EXPECT_EQ(proxy.answer(), nullptr);
-  EXPECT_NEAR(force(lose(proxy, 1.0)), spring(-0.01) - 1.0, kTolerance);
 }
 
 TEST_F(ToolProxyTest, DampingResistsTheMotionButNeverPullsTheHandIn) {
@@ -378,36 +265,6 @@ TEST_F(ToolProxyTest, AClearanceRisesAtItsSpeedAndFallsAtOnce) {
     parameters_.clearances = {{"liver", "shaft", 0.0}};
     EXPECT_EQ(follow(proxy, -0.01, 1.0).answer->state, ProxyStatus::kFree);
   }
-}
-
-TEST_F(ToolProxyTest, AStateWithTooManyPlacesHasTheNearestOneOfEachLink) {
-  ToolProxy proxy(tool_, parameters_);
-  press(proxy, 0.0);
-  ProxyReport report = follow(proxy, 0.0);
-  ASSERT_FALSE(report.answer->contacts.empty());
-  ProxyAnswer crowded = *report.answer;
-  const ProxyFace place = crowded.contacts[0];
-  crowded.contacts.clear();
-  for (int i = 0; i < 60; ++i) {
-    ProxyFace& at = crowded.contacts.emplace_back(place);
-    at.contact.link = i < 50 ? 0 : i - 49;
-    if (i == 45) at.clearance = 0.1;  // The tool has to give way to it.
-    at.contact.point.x() += 1e-3 * i;
-    at.contact.depth = -1e-3 * (i + 1);
-    at.load = 0.0;
-  }
-  report.answer = &crowded;
-  const std::vector<ProxyContact> places = state_of(report).contacts;
-  EXPECT_EQ(places.size(), 32U);
-  for (int link = 0; link <= 10; ++link) {
-    EXPECT_TRUE(std::any_of(places.begin(), places.end(), [&](const ProxyContact& at) {
-      return at.link == link;
-    })) << link;
-  }
-  EXPECT_NEAR(places[20].distance, 0.021, 1e-9) << "of the others, the nearest stay";
-  EXPECT_NEAR(places[21].distance, 0.046, 1e-9) << "and what is nearer than its clearance";
-  EXPECT_TRUE(std::is_sorted(places.begin(), places.end(),
-                             [](const auto& a, const auto& b) { return a.distance < b.distance; }));
 }
 
 TEST_F(ToolProxyTest, TheLagOfAFrameIsThatOfItsPoseAndNotOfAMeshThatWasSentLongAgo) {

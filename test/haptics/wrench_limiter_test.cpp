@@ -60,42 +60,6 @@ class WrenchLimiterTest : public testing::Test {
   WrenchLimiter::Time now_{std::chrono::hours(1)};
 };
 
-TEST_F(WrenchLimiterTest, ForceAndTorqueEachGoStraightToTheTargetAtTheirOwnRates) {
-  const std::vector<OrganForce> target = {organ_force("liver", 2.0 * kUp, {0.05, 0.0, 0.0})};
-  EXPECT_TRUE(follow(target)[0].force.isZero(0.0)) << "nothing has passed since the first step";
-  for (int tick = 1; tick <= 8; ++tick) {
-    const OrganForce of_organ = follow(target)[0];
-    EXPECT_LT((of_organ.force - std::min(2.0, 0.3 * tick) * kUp).norm(), 1e-12);
-    EXPECT_NEAR(of_organ.torque.x(), std::min(0.05, 0.01 * tick), 1e-12);
-    EXPECT_LT((sum_of(of_organ.on_faces) - of_organ.force).norm(), 1e-12);
-    EXPECT_EQ(limiter_.is_on_its_way(), tick < 7);
-  }
-  EXPECT_NEAR(follow({organ_force("liver", kUp)}, 500)[0].force.z(), 1.85, 1e-12);
-  EXPECT_NEAR(follow({organ_force("liver", kUp)}, 1000000)[0].force.z(), 1.25, 1e-12)
-      << "a pause counts as 2 ms";
-}
-
-TEST_F(WrenchLimiterTest, ATargetThatExceedsALimitShrinksByOneFactor) {
-  const struct {
-    double force, torque, share;
-    const char* by;
-  } rows[] = {
-      {2.0, 0.05, 1.0, nullptr}, {6.0, 0.1, 0.5, "max_force"}, {3.0, 0.4, 0.25, "max_torque"}};
-  for (const auto& row : rows) {
-    const std::vector<OrganForce> target = {
-        organ_force("kidney", 0.7 * row.force * kUp, {0.0, 0.4 * row.torque, 0.0}),
-        organ_force("liver", 0.3 * row.force * kUp, {0.0, 0.6 * row.torque, 0.0})};
-    reach(target);
-    EXPECT_STREQ(limiter_.clipped_by(), row.by);
-    for (std::size_t i = 0; i < 2; ++i) {
-      const OrganForce& found = limiter_.forces()[i];
-      EXPECT_LT((found.force - row.share * target[i].force).norm(), 1e-12);
-      EXPECT_LT((found.torque - row.share * target[i].torque).norm(), 1e-12);
-      EXPECT_LT((sum_of(found.on_faces) - found.force).norm(), 1e-12);
-    }
-  }
-}
-
 // Also if the target goes on changing, and if a limit is lowered again on the way. Zero: the end of
 // the node.
 TEST_F(WrenchLimiterTest, ALowerLimitHoldsWithin10MsWhateverTheRates) {

@@ -17,7 +17,7 @@ SCRIPTS = [path for path in glob.glob(os.path.join(SOURCE, 'examples', '*.py')) 
     os.path.join(SOURCE, 'scripts', name) for name in ('view.py', 'demo_report.py', 'organ_mesh_adapter', 'plot.py', 'pose_adapter.py', 'trial_report.py')]
 # The programs of tests and benchmarks, besides the unit tests.
 NOT_SHIPPED = ('exactness_proof', 'proxy_proof', 'collision_benchmark', 'end_to_end', 'pose_to_wrench',
-               'echo_node', 'soak', 'fuzz')
+               'echo_node', 'fuzz')
 NODES = ('organ_collision_node', 'haptic_proxy', 'tool_guard')
 
 

@@ -47,28 +47,9 @@ TEST_F(MessageLoopTest, CallsAllCallbacksThatAreThere) {
   EXPECT_GE(node_.handled, 10) << "before and after each callback";
 }
 
-TEST_F(MessageLoopTest, ReturnsWithoutACallbackAndHearsUntilThen) {
-  const SteadyTime before = loop_.now();
-  receive();
-  receive(loop_.now());
-  receive(loop_.now() - 1s);
-  EXPECT_EQ(node_.handled, 6);
-  EXPECT_GE(loop_.heard_until(), before);
-  EXPECT_LE(loop_.heard_until(), loop_.now());
-}
-
 TEST_F(MessageLoopTest, ThrowsWhatACallbackThrows) {
   call_later(loop_.queue(), [] { throw std::domain_error("broken"); });
   EXPECT_THROW(receive(), std::domain_error);
-}
-
-TEST_F(MessageLoopTest, DropsCallbacksAtItsEnd) {
-  bool called = false;
-  call_later(loop_.queue(), [&] { called = true; });
-  loop_.end();
-  call_later(loop_.queue(), [&] { called = true; });
-  receive(loop_.now());
-  EXPECT_FALSE(called);
 }
 
 }  // namespace

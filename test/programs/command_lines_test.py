@@ -85,17 +85,6 @@ class CommandLinesTest(ProgramCase):
         self.assertEqual(sorted(self.folder.iterdir()), before)
         self.assertEqual((self.folder / 'x.bag.incomplete').read_text(), 'kept')
 
-    def test_help_alone_matters(self):
-        for name, words in (
-            ('QUERY_OFFLINE', '--mesh --motions --jobs --picker --margin --blank-lines'),
-            ('REPLAY', 'IN.bag OUT.bag --parameters --node'),
-        ):
-            for arguments in ['-h'], ['--size', 'nonsense', '--help']:
-                done = self.run_program(*arguments, program=os.environ[name])
-                self.assertEqual((done.returncode, done.stderr), (0, ''))
-                for word in words.split():
-                    self.assertIn(word + ' ', done.stdout)
-
     def test_opengl_that_does_not_work(self):
         """A forward compatible context has no picking mode. Mesa ends the process if it does not know the driver."""
         for options in '', ' --picker select', ' --jobs 3':

@@ -121,34 +121,6 @@ TEST(PlyFile, has_numbers_of_every_type) {
   }
 }
 
-TEST(PlyFile, has_other_elements_and_properties_and_line_ends) {
-  const std::string text = ply_text(
-      "ascii",
-      "element camera 1\nproperty list int float views\nelement face 2\nproperty uchar red\n" +
-          kList +
-          "property list int double texcoord\nobj_info x\nelement empty 5\nelement vertex 4\n" +
-          kXyz + "property float nx\nelement edge 1\nproperty int v\n",
-      "2 0.5 0.5\n9 3 0 1 2 0\n9 3 0 2 3 2 0.5 1\n0 0 0 1\n0.1 0 0 1\n\n0 1 0 1\n0 0 1 1\n7\n");
-  for (const std::string end : {"\n", "\r\n", "\r"}) {
-    std::string changed;
-    for (const char character : text)
-      changed += character == '\n' ? end : std::string(1, character);
-    const MeshFile mesh = parse_mesh("a.PLY", changed);
-    EXPECT_EQ(mesh.vertices, (std::vector<double>{0, 0, 0, 0.1, 0, 0, 0, 1, 0, 0, 0, 1}));
-    EXPECT_EQ(mesh.triangles, (FaceNumbers{0, 1, 2, 0, 2, 3}));
-  }
-}
-
-TEST(PlyFile, with_a_carriage_return_alone_may_have_a_line_feed_as_its_first_byte) {
-  std::string header = ply_text(
-      "binary_little_endian",
-      "element vertex 3\nproperty uchar x\nproperty uchar y\nelement face 1\n" + kList, "");
-  std::replace(header.begin(), header.end(), '\n', '\r');
-  const std::string body("\n\n\1\2\3\0\3\0\0\0\0\1\0\0\0\2\0\0\0", 19);
-  EXPECT_EQ(parse_mesh("a.ply", header + body).vertices,
-            (std::vector<double>{10, 10, 0, 1, 2, 0, 3, 0, 0}));
-}
-
 TEST(PlyFile, is_refused_with_what_is_wrong) {
   const std::string elements = "element vertex 3\n" + kXyz + "element face 1\n" + kList;
   const std::string vertices = "0 0 0\n1 0 0\n0 1 0\n";
@@ -177,47 +149,6 @@ TEST(PlyFile, is_refused_with_what_is_wrong) {
   }
 }
 
-TEST(StlFile, may_have_capitals_and_bytes_behind_its_end) {
-  const std::string facet =
-      " facet normal -nan(ind) nan 0\n  outer loop\n   vertex 0 0 -0\n   vertex 1e0 0 0\n"
-      "   vertex 0 0.1 0\n  endloop\n endfacet\n";
-  std::string text =
-      "solid a facet of vertex\n" + facet + "endsolid\nsolid b\n" + facet + "endsolid b\n\x1a";
-  const auto check = [](const MeshFile& mesh) {
-    EXPECT_EQ(mesh.vertices, (std::vector<double>{0, 0, 0, 1, 0, 0, 0, 0.1, 0}));
-    EXPECT_EQ(mesh.triangles, (FaceNumbers{0, 1, 2, 0, 1, 2}));
-  };
-  check(parse_mesh("a.stl", text));
-  check(parse_mesh("a.stl", "\xEF\xBB\xBF" + text));
-  for (char& letter : text) letter = static_cast<char>(std::toupper(letter));
-  check(parse_mesh("a.STL", text));
-  EXPECT_EQ(mesh_refusal("a.stl", "solid\n" + facet),
-            "8: the file ends without endsolid; it may be cut off");
-  EXPECT_EQ(mesh_refusal("a.stl", "solid\nsurface\n"), "2: \"surface\" is no word of an STL file");
-  EXPECT_EQ(mesh_refusal("a.stl", "solid\nfacet normal 0 0 1 outer loop\nendloop\n"),
-            "3: a facet with 0 vertices; must have 3");
-}
-
-TEST(StlFile, counts_its_triangles_rightly) {
-  const auto stl = [](std::uint32_t count, std::size_t triangles, const std::string& more) {
-    std::string content = "solid model of a pump";
-    content.resize(80, ' ');
-    content.append(reinterpret_cast<const char*>(&count), 4);
-    for (std::size_t i = 0; i < triangles; ++i) {
-      const float numbers[12] = {0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, static_cast<float>(i)};
-      content.append(reinterpret_cast<const char*>(numbers), sizeof numbers).append(2, '\0');
-    }
-    return content + more;
-  };
-  EXPECT_EQ(parse_mesh("a.stl", stl(2, 2, "more")).triangles, (FaceNumbers{0, 1, 2, 0, 1, 3}));
-  EXPECT_EQ(parse_mesh("a.stl", stl(2, 2, std::string(100, '\0'))).triangles.size(), 6U);
-  for (const std::uint32_t count : {0U, 1U, 3U, 4294967295U}) {
-    const std::string why = mesh_refusal("a.stl", stl(count, 2, ""));
-    EXPECT_EQ(why.find(" its header counts " + std::to_string(count) + " triangles, "), 0U) << why;
-    EXPECT_NE(why.find("the file has 184 bytes, as for 2 triangles"), std::string::npos) << why;
-  }
-}
-
 TEST(OffFile, may_have_colours_and_normals) {
   const std::string body = "0 0 0 255 0 0\n1 0 0 # a comment\n\n0 0.1 0\n3 0 1 2 255 0 0\n";
   for (const std::string begin :
@@ -232,19 +163,6 @@ TEST(OffFile, may_have_colours_and_normals) {
   }
   EXPECT_EQ(mesh_refusal("a.off", "OFF 3 2 0\n" + body),
             "6: the file ends before it has 2 of the element \"face\"; it may be cut off");
-}
-
-TEST(File, that_is_no_regular_file_is_refused) {
-  const std::string path = testing::TempDir() + "mesh_reader_test.stl";
-  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);  // Opening it would block forever.
-  EXPECT_EQ(input_error([&] { read_mesh(path); }),
-            path + ": it is a FIFO, device or socket; must be a regular file");
-  std::remove(path.c_str());
-  EXPECT_EQ(input_error([&] { read_mesh(path); }), path + ": there is no such file");
-  std::ofstream(path).flush();
-  EXPECT_EQ(input_error([&] { read_mesh(path); }), path + ": it is empty");
-  std::remove(path.c_str());
-  EXPECT_EQ(input_error([] { read_mesh("/tmp"); }), "/tmp: it is a folder");
 }
 
 /// The area of a simple polygon, counterclockwise, by the formula of Gauss.
@@ -293,10 +211,6 @@ void expect_covered(const std::vector<Vector2d>& polygon, bool is_convex) {
   }
 }
 
-TEST(Polygon, that_is_convex_becomes_the_fan_around_its_first_corner) {
-  expect_covered({{0, 0}, {1, 0}, {2, 0}, {2, 2}, {1, 2.5}, {0, 2}}, true);
-}
-
 TEST(Polygon, that_is_concave_has_no_faces_in_the_void) {
   expect_covered({{0.1, 0}, {0.1, 0.05}, {0.05, 0.05}, {0.05, 0.1}, {0, 0.1}, {0, 0}}, false);
   expect_covered({{0, 0}, {0.05, 0.015}, {0.1, 0}, {0.05, 0.1}}, false);
@@ -334,14 +248,6 @@ TEST(Polygon, of_any_shape_is_covered) {
       spiral.push_back(radius * Vector2d(std::cos(angle), std::sin(angle)));
     }
     if (count >= 20) expect_covered(spiral, false);
-  }
-}
-
-TEST(Polygon, that_meets_itself_keeps_its_count_of_faces) {
-  for (const char* face : {"f 1 3 2 4", "f 1 1 1 1", "f 1 2 1 2 1", "f 1 2 3 1 2 3 4"}) {
-    const MeshFile mesh = parse_mesh("a.obj", kFiveVertices + face);
-    EXPECT_EQ(mesh.triangles.size() / 3,
-              static_cast<std::size_t>(std::count(face, face + std::string(face).size(), ' ')) - 2);
   }
 }
 

@@ -51,16 +51,6 @@ TEST(Motions, have_every_mode) {
   }
 }
 
-TEST(Motions, may_have_a_trocar_that_moves) {
-  const TemporaryFile file("1,swept" + kPoints + ",0.001,1,2,4\n2,static" + kPoints +
-                           ",0.001,,,\n3,swept" + kPoints + ",0.001\n");
-  Motions motions(file.path());
-  EXPECT_EQ(motions.next()->previous_trocar, Eigen::Vector3d(1, 2, 4));
-  EXPECT_EQ(request_of(*motions.next(), {}).path.size(), 1U);
-  const ToolPath resting = request_of(*motions.next(), {}).path;
-  EXPECT_EQ(resting.front().axis.trocar, resting.back().axis.trocar);
-}
-
 TEST(Motions, refuse_lines_naming_the_value_and_what_is_legal) {
   const std::string none = ": the file ends without a motion; must have at least one";
   const std::string good = kHeader + "1,swept" + kPoints + ",1\n3,static,1,2,3,,,,1,2,3,1\n";
@@ -100,18 +90,6 @@ std::string file_of(const Names& queries) {
   return content;
 }
 
-TEST(Motions, may_have_long_lines_and_are_counted_with_blank_ones) {
-  std::string content;
-  for (int i = 0; i < 40; ++i) {
-    const std::string name(1 + i * i * 200, static_cast<char>('a' + i % 26));
-    content += "\r\n \t\n" + name + std::to_string(i) + ",swept" + kPoints + ",1\r\n";
-  }
-  Motions motions(TemporaryFile(content).path());
-  EXPECT_EQ(motions.count(), 40U);
-  for (int i = 0; i < 40; ++i) EXPECT_EQ(motions.next()->line % 3, 0U);
-  EXPECT_EQ(input_error([] { Motions motions("/"); }), "/: cannot be read: Is a directory");
-}
-
 TEST(Motions, are_sorted_as_integers_or_as_text) {
   for (const auto& [queries, sorted] :
        {std::pair(Names{"10", "9", "-3", "0", "100"}, Names{"-3", "0", "9", "10", "100"}),
@@ -124,18 +102,6 @@ TEST(Motions, are_sorted_as_integers_or_as_text) {
       EXPECT_EQ(queries[motion->line - 1], motion->query);
     }
     EXPECT_EQ(names, sorted);
-  }
-}
-
-TEST(Motions, are_refused_as_a_whole) {
-  const Refusals refusals = {
-      {file_of({"3", "4", "3"}), ":3: query \"3\" is already on line 1; each motion needs its own"},
-      {file_of({"3", "03"}), ":2: query \"03\" is already on line 1; each motion needs its own"},
-      {file_of({"a", "b", "b"}), ":3: query \"b\" is already on line 2; each motion needs its own"},
-      {file_of({"1", "2"}) + "3,swept\n",
-       ":3: 2 columns; must be 12, or 15 with the previous trocar"}};
-  for (const auto& [content, why] : refusals) {
-    EXPECT_EQ(refusal_of(content, [&](const std::string& file) { Motions motions(file); }), why);
   }
 }
 

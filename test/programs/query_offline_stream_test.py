@@ -8,7 +8,7 @@ import subprocess
 import time
 import unittest
 
-from program import CONTACTS_HEADER, MOTIONS_HEADER, PROGRAM, ProgramCase, motion_line, motions_text, obj_text
+from program import CONTACTS_HEADER, PROGRAM, ProgramCase, motion_line, motions_text, obj_text
 from support import scenes
 
 FILES = ('--mesh', 'organ.obj', '--motions', '-')
@@ -113,50 +113,11 @@ class StreamTest(ProgramCase):
             self.assertEqual(bool(answer), tip == TIP)
         self.assertEqual(talk.end(), ('', '', 0))
 
-    def test_the_last_line_needs_no_line_feed(self):
-        talk = self.start()
-        talk.write(line(1).rstrip('\n'))
-        warning = 'standard input:1: warning: the last line has no line feed; its end may be missing\n'
-        self.assertEqual(talk.end(), (self.from_file(line(1)), warning, 0))
-
     def test_the_same_bytes_as_from_a_sorted_file(self):
         text = motions_text([]) + ''.join(line(i, (0.02, 0.01, -1e-5 * i)) for i in range(3000))
         right = self.from_file(text)
         for jobs in '1', '2', '7':
             self.assertEqual(self.piped(text, '--jobs', jobs), (right, '', 0))
-
-    @unittest.skipIf('ASAN_OPTIONS' in os.environ, 'most of the memory would be the sanitizer\'s')
-    def test_memory_does_not_grow_with_motions(self):
-        peaks = []
-        for count in 2000, 60000:
-            self.write('motions.csv', ''.join(line(query) for query in range(count)))
-            with open(self.folder / 'motions.csv') as motions, open(self.folder / 'answers.csv', 'w') as answers:
-                process = subprocess.Popen([PROGRAM, *FILES, '--jobs', '2'], cwd=self.folder, stdin=motions, stdout=answers,
-                                           stderr=subprocess.DEVNULL)
-                _, process.returncode, usage = os.wait4(process.pid, 0)
-            peaks.append(usage.ru_maxrss / 1024)  # [MiB]
-        self.assertGreater(os.path.getsize(self.folder / 'answers.csv'), 40 << 20)
-        self.assertLess(peaks[1] - peaks[0], 16)
-
-    def test_answers_come_in_the_order_of_the_input(self):
-        names = ['10', '9', 'stab', '9', '-1']
-        output, _, _ = self.piped(''.join(map(line, names)), '--blank-lines')
-        answers = output.split('\n', 1)[1].split('\n\n')[:-1]
-        self.assertEqual([answer.split(',')[0] for answer in answers], names)
-
-    def test_bad_lines(self):
-        """The motions before a bad line are answered."""
-        good = line(1) + line(2)
-        right = self.from_file(good)
-        for text, said in (
-            (good + '3,swept,1,2,3\n' + line(4), 'standard input:3: 5 columns; must be 12, or 15 with the previous trocar\n'),
-            (MOTIONS_HEADER + '\n\n' + good + line(3).replace('swept', 'sweep'), 'standard input:5: mode is "sweep"'),
-        ):
-            for jobs in '1', '3':
-                output, error, status = self.piped(text, '--jobs', jobs)
-                self.assertEqual((output, status), (right, 2), error)
-                self.assertEqual(error[:len(said)], said)
-                self.assertEqual(error.count('\n'), 1)
 
     def test_a_reader_that_goes_away(self):
         talk = self.start()
@@ -165,7 +126,6 @@ class StreamTest(ProgramCase):
         talk.write(line(1))
         self.assertEqual(talk.process.wait(LIMIT), 1)
         self.assertEqual(talk.process.stderr.read(), b'query_offline: stdout cannot be written: Broken pipe\n')
-
 
 
 if __name__ == '__main__':

@@ -48,15 +48,6 @@ TEST(Resource, RefusalsNameTheFileAndWhy) {
   for (const auto& [name, words] : rows) expect_words(resource_error(name), words);
 }
 
-TEST(Resource, PathsAndUrlsWhoseEscapesAreBytes) {
-  EXPECT_EQ(read_resource(tool_file("notes.txt")), "This is no mesh.\n");
-  const std::string path = testing::TempDir() + "a 100% b%00.stl";
-  std::ofstream(path) << "mesh";
-  EXPECT_EQ(read_resource(path), "mesh");
-  EXPECT_EQ(read_resource("file://" + testing::TempDir() + "a%20100% %62%00.stl"), "mesh");
-  std::remove(path.c_str());
-}
-
 namespace {
 
 std::vector<Triangle> read_triangles(const std::string& name, const Vector3d& scale = kUnit,
@@ -130,16 +121,4 @@ TEST(MeshFile, RefusalsNameTheFileAndWhy) {
     expect_words(tool_error([&, &name = name, &scale = scale] { read_triangles(name, scale); }),
                  {"/test/data/tools/" + name, words});
   }
-}
-
-TEST(MeshFile, OtherFilesThatItNamesAreNotRead) {
-  // The file names a FIFO as its buffer. Opening it would block forever.
-  const std::string fifo = testing::TempDir() + "buffer.bin", path = testing::TempDir() + "a.gltf";
-  ASSERT_EQ(mkfifo(fifo.c_str(), 0600), 0);
-  std::ofstream(path)
-      << "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":36,\"uri\":\"" << fifo
-      << "\"}]}";
-  expect_words(tool_error([&] { read_mesh_file(path); }), {path});
-  std::remove(path.c_str());
-  std::remove(fifo.c_str());
 }

@@ -59,25 +59,6 @@ TEST(RobotModel, CollisionShapesWhereTheirOriginsAre) {
   expect_pose(sphere, {0.16, -0.02, 0.1}, Vector3d::UnitX());
 }
 
-TEST(RobotModel, VisualShapesWhereThereAreNoOthers) {
-  const RobotLink wrist = link(gripper(), "wrist");
-  ASSERT_EQ(wrist.shapes.size(), 1u);
-  const RobotShape& box = wrist.shapes[0];
-  EXPECT_EQ(box.kind, RobotShape::BOX);
-  EXPECT_EQ(Vector3d(&box.size[0]), Vector3d(0.02, 0.04, 0.06));
-  expect_pose(box, {0.5, 0.25, -0.125}, Vector3d::UnitY());
-}
-
-TEST(RobotModel, MovingJoints) {
-  for (const auto& [name, joint] : {std::pair("mount", ""),
-                                    {"shaft", "insertion"},
-                                    {"wrist", ""},
-                                    {"jaw", "jaw_joint"},
-                                    {"other_jaw", "other_jaw_joint"}}) {
-    EXPECT_EQ(link(gripper(), name).joint, joint);
-  }
-}
-
 TEST(RobotModel, WhatIsNoUrdfIsRefusedWithTheReason) {
   // Where the file is no XML, the reason is in the words of urdfdom's parser, which versions
   // change.
@@ -106,31 +87,6 @@ TEST(RobotModel, LinksReadInPartAreRefused) {
   }
   expect_words(refusal(robot_of("<sphere radius='nan'/>")), {"radius [nan]"});
   expect_words(refusal(robot_of("<box size='1 1'/>")), {"[1 1]"});
-}
-
-TEST(RobotModel, FaultsOfOtherLinksDoNotMatter) {
-  const std::string urdf = robot(
-      "<link name='tip'><collision><geometry><sphere radius='1'/></geometry></collision></link>"
-      "<link name='tip_2'><collision><geometry><cone/></geometry></collision></link>"
-      "<joint name='j' type='fixed'><parent link='tip'/><child link='tip_2'/></joint>");
-  EXPECT_EQ(link(urdf, "tip").shapes.size(), 1u);
-  expect_words(refusal(urdf, "tip_2"), {"'tip_2'", "cone"});
-}
-
-TEST(RobotModel, LinksInTheOrderOfTheirNamesWithTheirMeshes) {
-  std::vector<std::string> read;
-  const auto found = read_links(gripper(), {"shaft", "jaw", "shaft"}, "",
-                                [&](const std::string& mesh) { read.push_back(mesh); });
-  const std::string file = tool_file("jaw_binary.stl");
-  EXPECT_EQ(read, std::vector<std::string>{"link 'jaw': mesh '" + file + "'"});
-  ASSERT_EQ(found.size(), 3U);
-  EXPECT_EQ(found[0].shapes.size(), 2U);
-  EXPECT_EQ(found[2].shapes.size(), 2U);
-  const RobotShape& mesh = found[1].shapes.at(0);
-  EXPECT_EQ(mesh.kind, RobotShape::MESH);
-  EXPECT_EQ(mesh.file, file);
-  EXPECT_EQ(mesh.triangles.size(), 12U);
-  EXPECT_EQ(mesh.vertices.size(), 12U);
 }
 
 TEST(RobotModel, MeshesThatCannotBeRead) {

@@ -75,18 +75,38 @@ bool least_is_right(const ToolStep& step, const CollisionResult& result, double&
   if (step.at_rest()) return found.least == found.distance;
   if (!result.contacts.empty()) {
     const double touch = tolerance::kConvexMargin + band;
-    return found.least == 0.0 && is_within(step, found.least_fraction, touch);
+    double first = 1.0;
+    for (const FaceContact& contact : result.contacts) first = std::min(first, contact.fraction);
+    return found.least == 0.0 && found.least_fraction == first && is_within(step, first, touch);
   }
   return is_within(step, found.least_fraction, found.least + band) &&
          stays_above(step, found.least - kInMotion, closest);
 }
 
-/// Whether the contacts of a tool at rest are those of the oracle.
+/// Whether the contacts are those of the oracle: each face is touched at the contact's time and, at
+/// some times before it, not yet; a face without a contact is touched at none of these times; and
+/// `touching` tells of the end.
 bool contacts_are_right(const ToolStep& step, const CollisionResult& result) {
-  if (!step.at_rest()) return true;
-  const double band = kAtRest + rounding(step);
-  return result.contacts.empty() ? !is_within(step, 1.0, -band)
-                                 : is_within(step, 1.0, tolerance::kConvexMargin + band);
+  const double band = kAtRest + rounding(step), touch = tolerance::kConvexMargin + band;
+  const double late = step.at_rest() ? band : kInMotion;
+  std::vector<double> first(step.now.face_count(), 1.0 + 1e-9);  // when a face is touched
+  for (const FaceContact& contact : result.contacts) {
+    first[contact.face] = std::min(first[contact.face], contact.fraction);
+    if (!is_within(step, contact.face, contact.fraction, step.at_rest() ? touch : kInMotion)) {
+      return false;
+    }
+    const bool is_near_at_end =
+        is_within(step, contact.face, 1.0, contact.touching ? touch : -band);
+    if (is_near_at_end != contact.touching) return false;
+  }
+  for (std::size_t face = 0; face < first.size(); ++face) {
+    constexpr int kTimes = 8;
+    for (int i = 0; i <= kTimes; ++i) {
+      const double time = i / static_cast<double>(kTimes);
+      if (time < first[face] - 1e-6 && is_within(step, face, time, -late)) return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace

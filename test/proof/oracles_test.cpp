@@ -3,13 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clearance_trials.hpp"
-#include "exact_distance.hpp"
 #include "exact_sides.hpp"
-#include "geometry/distance/first_touch.hpp"
-#include "link_trials.hpp"
 #include "placement_trials.hpp"
-#include "step_oracle.hpp"
 #include "test/closed_surfaces.hpp"
 #include "test/proof/proxy/organ_oracle.hpp"
 #include "test/proof/proxy/referee.hpp"
@@ -45,71 +40,6 @@ TEST(ExactSides, winds_as_often_as_the_solid_angles_say) {
   }
   EXPECT_GT(inside, 300);
   EXPECT_GT(twice, 10);
-}
-
-/// Some trials of each kind, at rest and moving.
-std::vector<ToolStep> make_steps() {
-  std::vector<ToolStep> steps;
-  for (std::size_t kind = 0; kind < trial_kinds().size(); ++kind) {
-    Random random(kind);
-    for (int i = 0; i < 3; ++i) {
-      steps.push_back(make_resting_shaft(kind, random).step);
-      steps.push_back(make_moving_shaft(kind, random).step);
-    }
-  }
-  for (std::size_t kind = 0; kind < link_trial_kinds().size(); ++kind) {
-    Random random(kind);
-    for (std::size_t part = 0; part < link_part_kinds().size(); ++part) {
-      steps.push_back(make_resting_link(kind, part, random).step);
-      steps.push_back(make_moving_link(kind, part, random).step);
-    }
-  }
-  return steps;
-}
-
-/// What exact arithmetic decides, and a search that samples distances on the way.
-TEST(StepOracle, agrees_with_exact_arithmetic_and_finds_the_closest_approach) {
-  Random random(1);
-  for (const ToolStep& step : make_steps()) {
-    const double fraction = random.chance(0.2) ? 1.0 : random.uniform(0.0, 1.0);
-    const double distance = rounded_distance(step, fraction);
-    EXPECT_TRUE(is_within(step, fraction, distance + 2e-9)) << step;
-    if (distance + surface_radius(step) > 3e-9) {
-      EXPECT_FALSE(is_within(step, fraction, distance - 2e-9)) << step;
-    }
-    double sampled = rounded_distance(step, 1.0);
-    for (int i = 0; i < 200; ++i) sampled = std::min(sampled, rounded_distance(step, i / 200.0));
-    double closest = 0.0;
-    EXPECT_FALSE(stays_above(step, sampled + 1e-6, closest)) << step;
-    double low = -surface_radius(step) - 1e-6, high = sampled + 1e-6;
-    while (high - low > 1e-5) {
-      const double middle = 0.5 * (low + high);
-      (stays_above(step, middle, closest) ? low : high) = middle;
-    }
-    EXPECT_FALSE(stays_above(step, high, closest)) << step;
-    EXPECT_LE(closest, high + 1e-8) << step;
-  }
-}
-
-/// The library's first touch is a different search. Both have a tolerance, so motions that come
-/// within a micrometre of the distance are left to either.
-TEST(PassageOracle, AgreesWithFirstTouch) {
-  Random random(1);
-  long passed = 0;
-  const auto triangle = [&] {
-    return Triangle{random.point(0.05), random.point(0.05), random.point(0.05)};
-  };
-  for (int trial = 0; trial < 3000; ++trial) {
-    const ShaftMotion segment{{random.point(0.1), random.point(0.1)},
-                              {random.point(0.1), random.point(0.1)}};
-    const FaceMotion face{triangle(), triangle()};
-    const double distance = random.scale(1e-5, 0.05);
-    const bool is_passed = passes(segment, face, distance);
-    const auto touch = first_touch(segment, face, distance + (is_passed ? 1e-6 : -1e-6));
-    EXPECT_EQ(touch.has_value(), is_passed) << "trial " << trial;
-    passed += is_passed;
-  }
-  EXPECT_GT(passed, 300);
 }
 
 // The referee notices each kind of broken promise.
@@ -196,38 +126,12 @@ TEST_F(RefereeTest, NoticesAProxyThatPassedThroughASheetButNotAroundIt) {
   EXPECT_EQ(referee_.tally().through, 1);
 }
 
-TEST_F(RefereeTest, NoticesTissueThatMovedThroughTheProxy) {
-  begin({0.05, 0.05, 0.12});
-  organs_ = {organ_of(moved(turned_over(grid_cube(4, 0.025F)), {0.0F, 0.0F, 0.03F}))};
-  const Vector3d tip(0.05, 0.05, 0.12);
-  show(tip, answer_at(tip, tip));
-  EXPECT_EQ(referee_.tally().near, 1);
-  EXPECT_EQ(referee_.tally().through, 1);
-}
-
 TEST_F(RefereeTest, NoticesAProxyInsideAClosedOrgan) {
   begin(above_);
   ProxyAnswer answer = answer_at(deep_, deep_);
   answer.is_placed_anew = true;
   show(deep_, answer, true);
   EXPECT_EQ(referee_.tally().inside, 1);
-}
-
-TEST_F(RefereeTest, NoticesAProxyThatIsPlacedAnewWithoutNeed) {
-  begin(above_);
-  ProxyAnswer answer = answer_at(above_, deep_);
-  answer.is_placed_anew = true;
-  show(deep_, answer);
-  EXPECT_EQ(referee_.tally().overrun, 1);
-  show(deep_, answer_at(above_, deep_), true);
-  EXPECT_EQ(referee_.tally().inconsistent, 1) << "not placed anew after a jump";
-}
-
-TEST_F(RefereeTest, NoticesAProxyThatIsHeldInTheOpen) {
-  const Vector3d aside(0.05, 0.05, 0.2), hand(0.06, 0.05, 0.15);
-  begin(aside);
-  rest(aside, hand);
-  EXPECT_GT(referee_.tally().held, 40);
 }
 
 TEST_F(RefereeTest, NoticesAnswersThatContradictThemselves) {

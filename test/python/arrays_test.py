@@ -112,14 +112,6 @@ class ArraysTest(unittest.TestCase):
                 with self.assertRaisesRegex(ValueError, reason):
                     function(*arguments)
 
-    def test_matrices_have_the_poses_of_their_numbers(self):
-        numbers, matrices = poses(40, 3)
-        made = poses_array(matrices, 'links')
-        sign = np.sign((made[..., 3:] * numbers[..., 3:]).sum(axis=2, keepdims=True))
-        np.testing.assert_allclose(made[..., :3], numbers[..., :3])
-        np.testing.assert_allclose(made[..., 3:] * sign, numbers[..., 3:], atol=1e-14)
-        np.testing.assert_array_equal(poses_array(numbers.tolist(), 'links'), numbers)
-
 
 class ModuleTest(unittest.TestCase):
     def test_a_star_imports_every_name(self):

@@ -70,21 +70,6 @@ REFUSED = {
 }
 
 # Writes what a segmentation becomes: a closed surface with normals, in millimetres.
-SEGMENTATION = """
-import sys
-from vtkmodules.vtkFiltersSources import vtkSphereSource
-from vtkmodules.vtkIOLegacy import vtkPolyDataWriter
-ball, writer = vtkSphereSource(), vtkPolyDataWriter()
-ball.SetCenter(20, 50, 30)
-ball.SetRadius(30)
-ball.SetThetaResolution(1000)
-ball.SetPhiResolution(502)
-writer.SetInputConnection(ball.GetOutputPort())
-writer.SetFileName(sys.argv[1])
-writer.SetHeader('3D Slicer output. SPACE=LPS')
-writer.SetFileTypeToBinary()
-writer.Write()
-"""
 
 
 def volume(corners):
@@ -192,19 +177,6 @@ class MeshFilesTest(unittest.TestCase):
                 else:
                     self.assert_refused(self.path(name, content), 'needs VTK: install the package python3-vtk9', name)
 
-    @unittest.skipIf('ASAN_OPTIONS' in os.environ, 'sanitizers reserve terabytes')
-    def test_a_mesh_that_needs_too_much_memory(self):
-        """The last line names it and the cause, also behind lines of libraries."""
-        path = self.path('large.obj', 'v 0 0 0\nv 1 0 0\nv 0 1 0\n' + 2000000 * 'f 1 2 3\n')
-        urdf = '<robot name="r"><link name="l"><collision><geometry><mesh filename="%s"/></geometry></collision></link></robot>'
-        reader = 'ulimit -v %d; exec "$ROBOT_READER" - l'
-        for most, status, said in (100000, 2, 'not enough memory'), (2000000, 0, "link 'l': mesh '%s'" % path):
-            done = subprocess.run(['sh', '-c', reader % most], input=(urdf % path).encode(), stdout=subprocess.PIPE,
-                                  stderr=subprocess.PIPE, timeout=100)
-            last = done.stderr.decode().splitlines()[-1]
-            self.assertEqual(done.returncode, status, last)
-            self.assertTrue(path in last and said in last, last)
-
     def test_the_corners_of_stl_become_shared_vertices(self):
         for name in ('bextra.stl', 'bsolid.stl', 'upper.STL'):
             with self.subTest(name):
@@ -234,18 +206,6 @@ class MeshFilesTest(unittest.TestCase):
         vertices, faces = read_mesh(path, scale=0.001, lps=True)
         np.testing.assert_allclose(vertices, CUBE * [-0.001, -0.001, 0.001])
         self.assertAlmostEqual(volume(vertices[faces]), 1e-12, delta=1e-18)
-
-    @unittest.skipUnless(HAS_VTK, 'needs the package python3-vtk9')
-    def test_a_segmentation_of_a_million_faces_as_slicer_saves_it(self):
-        """A ball of 60 mm left of, behind and above the origin, in LPS. It is in front of its place if axes are mixed up."""
-        path = self.path('Segment_1.vtk')
-        subprocess.run(['/usr/bin/python3', '-c', SEGMENTATION, path], check=True, timeout=100)
-        vertices, faces = read_mesh(path, scale=0.001, lps=True)
-        self.assertEqual(len(faces), 1000000)
-        np.testing.assert_allclose(vertices.min(axis=0), [-0.05, -0.08, 0.0], atol=1e-6)
-        np.testing.assert_allclose(vertices.max(axis=0), [0.01, -0.02, 0.06], atol=1e-6)
-        ball = 4 / 3 * np.pi * 0.03 ** 3
-        self.assertAlmostEqual(volume(vertices[faces]) / ball, 1.0, delta=1e-4)
 
     def test_own_mesh_says_what_is_often_wrong(self):
         path = self.path('turned.obj', ''.join('v %r %r %r\n' % tuple(100 * v) for v in CUBE)

@@ -21,7 +21,7 @@ from geometry_msgs.msg import Point, Quaternion, Transform, TransformStamped, Ve
 import numpy as np
 from organ_collision.msg import Clearance, Contact, ContactArray, Grasp, ProxyContact, ProxyState, TouchEvent
 from organ_collision.recordings import BagError, Connection
-from organ_collision.trial import Envelope, Trial, TrialError
+from organ_collision.trial import Trial, TrialError
 from PyKDL import Frame, Rotation, Vector
 import rosbag
 from std_msgs.msg import Header, String
@@ -289,25 +289,6 @@ class TrialTest(unittest.TestCase):
                         continue
                     np.testing.assert_allclose(float(row[key]), value, err_msg='%s of %s' % (key, organ), **NEAR)
 
-    def test_the_table_of_touches_is_that_of_the_events(self):
-        bag = self.trial()
-        self.run_report(bag)
-        ends = {(e.organ, e.touch): e for e in read(bag)[NODE + '/touches'] if e.event == TouchEvent.END}
-        begins = sorted((e for e in read(bag)[NODE + '/touches'] if e.event == TouchEvent.BEGIN),
-                        key=lambda e: (seconds(e.header.stamp), e.organ))
-        rows = self.rows('trial_touches.csv')
-        self.assertEqual(len(rows), len(begins))
-        self.assertGreater(len(rows), 4)
-        for row, begin in zip(rows, begins):
-            end = ends.get((begin.organ, begin.touch))
-            self.assertEqual((row['tool'], row['organ']), ('probe', begin.organ))
-            np.testing.assert_allclose(float(row['begin_sec']), seconds(begin.header.stamp) - START, atol=1e-6)
-            if end is None:
-                self.assertEqual(row['end'], 'goes on at the end')
-            else:
-                np.testing.assert_allclose([float(row[key]) for key in ('duration_sec', 'deepest_m', 'faces')],
-                                           [end.duration_sec, end.deepest, end.faces], rtol=1e-6)
-
     def test_limits_are_kept_broken_or_not_known(self):
         bag = self.trial()
         limits = self.limits('{organ: vena_cava, max_touches: 0}', '{organ: liver, max_force: 0.9}',
@@ -344,19 +325,6 @@ class TrialTest(unittest.TestCase):
                                   stderr=subprocess.PIPE, text=True)
             self.assertEqual(done.returncode, code, done.stderr)
             self.assertRegex(done.stderr if code else done.stdout, r'\A' + printed)
-
-    def test_a_cut_bag_gives_what_is_there(self):
-        with open(self.whole, 'rb') as file:
-            whole = file.read()
-        random = np.random.default_rng(4)
-        for size in random.integers(len(whole) // 3, len(whole), 4).tolist() + [len(whole) - 1]:
-            with open(self.file('trial.bag'), 'wb') as file:
-                file.write(whole[:size])
-            done = self.run_report(self.file('trial.bag'))
-            self.assertIn('cut after %d bytes' % size, done)
-            self.assertIn('cut after %d bytes' % size, self.page())
-            share = float(self.rows('trial.csv')[0]['answers']) / (SECONDS * RATE)
-            self.assertAlmostEqual(share, min(1.0, size / len(whole)), delta=0.06)
 
     def test_a_damaged_bag_is_read_up_to_the_damage_and_an_unclosed_one_to_its_end(self):
         bag = self.trial()
@@ -403,20 +371,6 @@ class TrialTest(unittest.TestCase):
             'topic': topic, 'type': message._type, 'md5sum': '0' * 32, 'message_definition': message._full_text})
         self.assert_refused(old, says=['/organ_collision/contacts has organ_collision/ContactArray of another version'])
 
-    def test_answers_of_two_nodes(self):
-        both = self.file('trial.bag')
-        one, two = write_bag(self.file('one.bag'), 1.0), write_bag(self.file('two.bag'), 2.0, node='/second')
-        with rosbag.Bag(both, 'w') as bag:
-            for path in (one, two):
-                with rosbag.Bag(path) as part:
-                    for topic, message, stamp in part.read_messages():
-                        if topic != STATE or path == one:
-                            bag.write(topic, message, stamp)
-        self.assert_refused(both, says=['ContactArray about probe and ', ' from two nodes: ', '/organ_collision/contacts', '/second/contacts', '--node'])
-        for node, answers in (NODE, RATE), ('/second', 2 * RATE):
-            self.run_report(both, '--node', node)
-            self.assertEqual(float(self.rows('trial.csv')[0]['answers']), answers)
-
     def assert_unknown(self, report, *says):
         (row,) = report.verdicts
         self.assertEqual(row['state'], 'unknown', row)
@@ -443,63 +397,6 @@ class TrialTest(unittest.TestCase):
                             'haptic_proxy tells no force between probe and vena_cava')
         self.assert_unknown(judged(('max_path', 50, 'probe', None), change=lambda topic, message, t: [] if t > 0.5 and (
             topic in ('/tf', STATE)) else [(topic, message)]), 'the tip of probe was seen for 0.5 s only')
-
-    def test_a_tool_of_which_only_events_are_there(self):
-        def renamed(topic, message, t):
-            if topic.endswith('/touches'):
-                message.tool = 'other'
-            return [(topic, message)]
-
-        report = judged(('max_touches', 0, 'other', None), change=renamed)
-        self.assertEqual(report.state, 'broken')
-        self.assertEqual({row['answers'] for row in report.pair_rows() if row['tool'] == 'other'}, {0})
-
-    def test_a_distance_within_a_step_counts(self):
-        def fast(topic, message, t):
-            if topic.endswith('/contacts') and message.clearance.state == Clearance.KNOWN and not message.contacts:
-                message.clearance.least, message.clearance.distance = 0.001, 0.0035
-            return [(topic, message)] if not getattr(message, 'contacts', []) else []
-
-        report = judged(('min_distance', 0.003, 'probe', 'liver'), change=fast)
-        self.assertEqual((report.state, report.verdicts[0]['worst']), ('broken', '1.00 mm away'))
-
-    def test_an_event_that_was_lost(self):
-        """The end of the first touch and the beginning of the second."""
-        def lossy(topic, message, t):
-            is_lost = topic.endswith('/touches') and (message.event, message.touch) in ((TouchEvent.END, 1), (TouchEvent.BEGIN, 2))
-            return [] if is_lost else [(topic, message)]
-
-        whole, rest = ([row for row in judged(seconds=SECONDS, change=change).touch_rows() if row['organ'] == 'liver']
-                       for change in (lambda topic, message, t: [(topic, message)], lossy))
-        self.assertGreater(len(whole), 2)
-        self.assertEqual(len(rest), len(whole))
-        self.assertEqual(rest[0]['end'], 'its end is missing')
-        np.testing.assert_allclose([rest[0]['duration_sec'], rest[1]['begin_sec']], [
-            whole[1]['begin_sec'] - whole[0]['begin_sec'], whole[1]['begin_sec']], atol=1e-6)
-        self.assertEqual([{**row, 'begin_sec': 0} for row in rest[1:]], [{**row, 'begin_sec': 0} for row in whole[1:]])
-
-    def test_transforms_of_two_senders_with_clocks_apart(self):
-        """The parent's sender is 0.3 s late. The trial does not become longer by that."""
-        def late(topic, message, t):
-            if topic == '/tf':
-                stamp = genpy.Time.from_sec(START + t - 0.3)
-                yield topic, TFMessage([TransformStamped(Header(stamp=stamp, frame_id='world'), 'base', Transform(
-                    Vector3(1, 2, 3), Quaternion(0, 0, 0, 1)))])
-            yield topic, message
-
-        path = judged(change=late).paths['probe']
-        self.assertAlmostEqual(path.path_sec, 3.0, delta=0.05)
-        length = sum(np.linalg.norm(tip(t + 0.01) - tip(t)) for t in np.arange(0, 2.99, 0.01))
-        self.assertAlmostEqual(path.path, length, delta=0.01 * length)
-
-    def test_an_envelope_of_the_latest_seconds(self):
-        series, values = Envelope(lasting=1.0), np.random.default_rng(5).uniform(size=5000)
-        for number, value in enumerate(values):
-            series.add(0.001 * number + 0.0005, value, value)
-        times, low, high = series.points()
-        np.testing.assert_allclose((times[0], times[-1]), (3.998, 4.998))
-        pairs = values[3998:].reshape(-1, 2)
-        np.testing.assert_array_equal((low, high), (pairs.min(axis=1), pairs.max(axis=1)))
 
     def test_two_nodes_with_an_organ_each_are_one_trial(self):
         def shared(topic, message, t):

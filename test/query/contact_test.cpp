@@ -20,6 +20,22 @@ using oracle::Random;
 
 constexpr std::int32_t kNumber = 3;  ///< of the link
 
+/// A face on one leg of a step, and where it is at the end of the whole step.
+struct FaceLeg {
+  FaceMotion motion;
+  double begin, finish;  ///< fractions of the step at which the leg begins and ends
+  Triangle end;          ///< the face at the end of the step
+};
+
+/// The contact of a part and a face.
+std::optional<FaceContact> refine(const MovingPart& part, const FaceLeg& face) {
+  const auto touch = first_touch(part.core(), face.motion, part.radius());
+  if (!touch) return std::nullopt;
+  FaceContact contact = part.contact(*touch, face.motion, face.end);
+  contact.fraction = face.begin + touch->time * (face.finish - face.begin);
+  return contact;
+}
+
 Triangle shifted_by(Triangle face, const Vector3d& shift) {
   for (Vector3d& corner : face) corner += shift;
   return face;

@@ -142,28 +142,6 @@ TEST(LegSpan, BoundsHowFarALinkIsFromItsChord) {
   });
 }
 
-// At the waypoints the small part is near its chord, but between them it swings about the frame's
-// origin, from which it is far.
-TEST(LegSpan, BoundsTheArcOfALinkThatTiltsAboutItsOwnCenter) {
-  const Vector3d center(0.1, 0.0, 0.0);
-  const LinkBall ball{center, 1e-4};
-  ToolPath path;
-  for (const double angle : {0.0, 0.2, 0.0}) {
-    Isometry3d pose(Eigen::AngleAxisd(angle, Vector3d::UnitZ()));
-    pose.translation() = center - pose.linear() * center;
-    path.push_back({0.5 * static_cast<double>(path.size()), {center, center}, {pose}});
-  }
-  const LegSpan span = link_span(path.data(), path.size(), 0, 0, ball, 0.01);
-  ASSERT_EQ(span.leg_count(), 2U);
-  double most = 0.0;
-  for_each_time(path, span, [&](std::size_t leg, double time, double) {
-    const Isometry3d pose = RigidMotion(path[leg].links[0], path[leg + 1].links[0]).at(time);
-    most = std::max(most, (pose * center - center).norm());
-  });
-  EXPECT_GT(most, 4e-4);
-  EXPECT_LE(most, span.deviation);
-}
-
 TEST(LegSpan, AStraightWayIsOneSpanAndAToolAtRestHasOneLeg) {
   Random random(3);
   const ShaftMotion motion{random_axis(random), random_axis(random)};

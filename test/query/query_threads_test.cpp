@@ -106,27 +106,6 @@ TEST_F(QueryThreads, MadeUsedAndDestroyedInAnyThread) {
   }
 }
 
-TEST_F(QueryThreads, TwoChangePlacesAndWorkSideBySide) {
-  std::array<Worker, 2> workers;
-  std::array<std::unique_ptr<CollisionQuery>, 2> queries;
-  for (std::size_t i = 0; i < 2; ++i) {
-    workers[i].run([&] { queries[i] = std::make_unique<CollisionQuery>(); });
-  }
-  for (std::size_t round = 0; round < 20; ++round) {
-    std::array<std::size_t, 2> found = {};
-    for (std::size_t i = 0; i < 2; ++i) {
-      workers[i].start([&, i] { found[i] = contacts(*queries[(i + round) % 2]); });
-    }
-    for (Worker& worker : workers) worker.wait();
-    EXPECT_EQ(found[0], expected_);
-    EXPECT_EQ(found[1], expected_);
-  }
-  for (std::size_t i = 0; i < 2; ++i) workers[i].run([&] { queries[1 - i].reset(); });
-  for (Worker& worker : workers) {
-    worker.run([&] { EXPECT_EQ(contacts(*std::make_unique<CollisionQuery>()), expected_); });
-  }
-}
-
 // A refused request does not leave the context current in the thread.
 TEST_F(QueryThreads, ARefusedRequestHoldsNoThread) {
   Worker worker;

@@ -7,10 +7,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <map>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -20,9 +18,10 @@
 #include "query/moving_part.hpp"
 #include "test/closed_surfaces.hpp"
 #include "test/geometry/tool/tool_meshes.hpp"
+#include "test/proof/exact_distance.hpp"
+#include "test/proof/step_oracle.hpp"
 
-/// Organs and tools for the tests of queries, and answers by brute force: of every face with every
-/// part on every leg, without picking, boxes or bounds.
+/// Organs and tools for the tests of queries.
 namespace organ_collision {
 
 inline TriangleMesh mesh(const GridSurface& surface) {
@@ -51,28 +50,6 @@ inline GridSurface scattered_faces(std::uint32_t count, oracle::Random& random) 
 inline GridSurface shaken(GridSurface surface, double by, oracle::Random& random) {
   for (float& x : surface.vertices) x += static_cast<float>(random.uniform(-by, by));
   return surface;
-}
-
-/// How an organ changes during a step.
-enum class Change { kNone, kShakes, kGlitches, kJumps };
-
-/// The organ's shape at the start of the step.
-inline GridSurface changed(const GridSurface& soup, Change change, oracle::Random& random) {
-  if (change == Change::kShakes) return shaken(soup, random.scale(1e-5, 0.02), random);
-  GridSurface before = soup;
-  const double size = random.scale(0.02, 0.2);
-  if (change == Change::kGlitches) {
-    for (int i = 0; i < 3; ++i) {
-      const auto last = static_cast<int>(soup.vertices.size()) - 1;
-      before.vertices[static_cast<std::size_t>(random.integer(0, last))] +=
-          static_cast<float>(random.chance(0.3) ? 1e5 : size);
-    }
-  }
-  if (change == Change::kJumps) {
-    const Eigen::Vector3f jump = (size * random.direction()).cast<float>();
-    before = moved(before, {jump.x(), jump.y(), jump.z()});
-  }
-  return before;
 }
 
 /// A closed bumpy surface, about 0.2 m long, with as many faces as the paper's liver: 1224.
@@ -116,27 +93,6 @@ inline ToolPath random_link_path(std::size_t links, double rotation, oracle::Ran
       pose.linear() *= oracle::random_turn(random.scale(1e-5, rotation), random);
       pose.translation() += random.scale(1e-5, 0.05) * random.direction();
     }
-  }
-  return path;
-}
-
-/// A path of `legs` legs from the start of `smooth` to its end. Each waypoint is displaced by up to
-/// `tremor` [m], and each link also rotated by up to as many radians.
-inline ToolPath trembling(const ToolPath& smooth, int legs, double tremor, oracle::Random& random) {
-  ToolPath path;
-  const ToolWaypoint &from = smooth.front(), &to = smooth.back();
-  for (int i = 0; i <= legs; ++i) {
-    const double time = static_cast<double>(i) / legs;
-    ToolWaypoint waypoint{time, ShaftMotion{from.axis, to.axis}.at(time)};
-    waypoint.axis.tip += tremor * random.direction();
-    if (random.chance(0.5)) waypoint.axis.trocar += tremor * random.direction();
-    for (std::size_t link = 0; link < from.links.size(); ++link) {
-      Eigen::Isometry3d pose = RigidMotion(from.links[link], to.links[link]).at(time);
-      pose.translation() += tremor * random.direction();
-      pose.linear() *= oracle::random_turn(tremor, random);
-      waypoint.links.push_back(pose);
-    }
-    path.push_back(waypoint);
   }
   return path;
 }
@@ -206,129 +162,26 @@ struct LinkScene {
   CollisionRequest request;
 };
 
-/// A face on one leg of a step, and where it is at the end of the whole step.
-struct FaceLeg {
-  FaceMotion motion;
-  double begin, finish;  ///< fractions of the step at which the leg begins and ends
-  Triangle end;          ///< the face at the end of the step
-};
-
-/// Calls use(face, shape, part, face_leg) for each face, each part of the tool and each leg.
-/// `shape` is null for the shaft.
-template <typename Use>
-void for_each_pair(const CollisionRequest& request, const Use& use) {
-  const bool is_static = request.mode == QueryMode::kStatic;
-  const ToolPath path = is_static ? ToolPath{request.path.back()} : request.path;
-  const auto on_faces = [&](const LinkPart* shape, const MovingPart& part, double begin,
-                            double finish) {
-    for (std::uint32_t face = 0; face < request.organ->face_count(); ++face) {
-      const Triangle after = request.organ->triangle(face);
-      const bool rests = is_static || !request.organ_before;
-      const FaceMotion whole{rests ? after : request.organ_before->triangle(face), after};
-      const FaceLeg leg{{whole.at(begin), whole.at(finish)}, begin, finish, after};
-      use(face, shape, part, leg);
-    }
-  };
-  for (std::size_t leg = 0; leg < std::max<std::size_t>(path.size() - 1, 1); ++leg) {
-    const bool rests = path.size() == 1;
-    const ToolWaypoint &from = path[leg], &to = path[rests ? leg : leg + 1], &last = path.back();
-    const double begin = rests ? 0.0 : from.fraction, finish = rests ? 1.0 : to.fraction;
-    const bool has_shaft = request.radius > 0.0;
-    if (has_shaft) {
-      const ShaftMotion shaft{from.axis, to.axis};
-      on_faces(nullptr, MovingShaft(shaft, request.radius, last.axis), begin, finish);
-    }
-    for (std::size_t i = 0; request.links && i < request.links->size(); ++i) {
-      const Link& link = (*request.links)[i];
-      const RigidMotion motion(from.links[i], to.links[i]);
-      for (const LinkPart& part : link.parts) {
-        const auto number = static_cast<std::int32_t>(i);
-        const MovingLinkPart moving(part, link, number, motion, last.links[i]);
-        on_faces(&part, moving, begin, finish);
-      }
-    }
-  }
-}
-
-/// The contact of one part and one face by exact distances, without a work limit.
-inline std::optional<FaceContact> contact_of(const std::optional<FirstTouch>& touch,
-                                             const MovingPart& part, const FaceLeg& face) {
-  if (!touch) return std::nullopt;
-  FaceContact contact = part.contact(*touch, face.motion, face.end);
-  contact.fraction = face.begin + touch->time * (face.finish - face.begin);
-  return contact;
-}
-inline std::optional<FaceContact> refine(const MovingPart& part, const FaceLeg& face) {
-  return contact_of(first_touch(part.core(), face.motion, part.radius()), part, face);
-}
-
-/// The contact of a face with the triangle of a part's surface that touches it first.
-inline std::optional<FaceContact> refine_surface(const MovingPart& part, const ToolSurface& surface,
-                                                 const FaceLeg& face) {
-  std::optional<FirstTouch> first;
-  for (std::size_t i = 0; i < surface.faces().size(); ++i) {
-    const ConvexCore core(surface.triangle(i));
-    const auto touch =
-        first_touch(CoreMotion(core, *part.core().link()), face.motion, part.radius());
-    if (touch && (!first || touch->time < first->time)) first = touch;
-  }
-  return contact_of(first, part, face);
-}
-
-/// The contacts by brute force, sorted by face, then link. The earlier contact is kept, then the
-/// deeper one, then the one whose point comes first.
-inline std::vector<FaceContact> contacts_by_brute_force(CollisionRequest request) {
-  const auto order = [](const FaceContact& c) {
-    return std::make_tuple(c.fraction, -c.depth, c.point.x(), c.point.y(), c.point.z());
-  };
-  std::map<std::pair<std::uint32_t, std::int32_t>, FaceContact> best;
-  for_each_pair(request, [&](std::uint32_t face, const LinkPart* shape, const MovingPart& part,
-                             const FaceLeg& leg) {
-    auto contact =
-        shape && shape->surface ? refine_surface(part, *shape->surface, leg) : refine(part, leg);
-    if (!contact) return;
-    contact->face = face;
-    const auto [known, is_new] = best.emplace(std::make_pair(face, part.link()), *contact);
-    if (!is_new && order(*contact) < order(known->second)) known->second = *contact;
-  });
-  const bool is_static = request.mode == QueryMode::kStatic;
-  request.mode = QueryMode::kStatic;
-  const auto at_end = is_static ? std::vector<FaceContact>() : contacts_by_brute_force(request);
-  for (auto& [key, contact] : best) contact.touching = is_static;
-  for (const FaceContact& contact : at_end) best.at({contact.face, contact.link}).touching = true;
-  std::vector<FaceContact> contacts;
-  for (const auto& [key, contact] : best) contacts.push_back(contact);
-  return contacts;
-}
-
 /// [m] At rest, distances agree to this.
 constexpr double kExact = 1e-9;
 /// [m] While something moves, both the search and the measurement may be this much too large.
 constexpr double kMoving = 2.0 * tolerance::kApproach;
 
-/// The distance of each face from the tool [m] by brute force: the smallest one during the step.
-inline std::vector<double> distances_by_brute_force(const CollisionRequest& request) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  std::vector<double> least(request.organ->face_count(), kInfinity);
-  for_each_pair(request, [&](std::uint32_t face, const LinkPart* shape, const MovingPart& part,
-                             const FaceLeg& leg) {
-    const double radius = shape ? shape->ball_radius() : part.radius();
-    const auto measure = [&](const CoreMotion& core) {
-      WorkBudget unlimited = WorkBudget::unlimited();
-      const auto found = closest_approach(core, leg.motion, kInfinity, unlimited);
-      least[face] = std::min(least[face], found->closest.distance - radius);
-    };
-    if (!shape || !shape->surface) return measure(part.core());
-    for (std::size_t i = 0; i < shape->surface->faces().size(); ++i) {
-      measure(CoreMotion(ConvexCore(shape->surface->triangle(i)), *part.core().link()));
+/// [m] The distance of each face from the tool at the end of the step, by the oracle.
+inline std::vector<double> distances_at_end(const CollisionRequest& request) {
+  static const std::vector<Link> none;
+  const auto cores = oracle::placed_cores(request.radius, request.links ? *request.links : none,
+                                          {request.path.back().axis, request.path.back().links});
+  std::vector<double> distances;
+  for (std::uint32_t face = 0; face < request.organ->face_count(); ++face) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const oracle::PlacedCore& part : cores) {
+      const double distance = oracle::rounded_distance(part.core, request.organ->triangle(face));
+      least = std::min(least, distance - part.radius);
     }
-  });
-  return least;
-}
-
-inline std::vector<double> distances_at_end(CollisionRequest request) {
-  request.mode = QueryMode::kStatic;
-  return distances_by_brute_force(request);
+    distances.push_back(least);
+  }
+  return distances;
 }
 
 inline void expect_same(const FaceContact& a, const FaceContact& b, double slack) {
@@ -349,18 +202,6 @@ inline void expect_same(const std::vector<FaceContact>& a, const std::vector<Fac
                         double slack) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) expect_same(a[i], b[i], slack);
-}
-
-/// The same faces and links at the same times, where rounding decides which of several touches at
-/// the same time is the first.
-inline void expect_same_touches(const std::vector<FaceContact>& a,
-                                const std::vector<FaceContact>& b, double slack) {
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    EXPECT_EQ(a[i].face, b[i].face);
-    EXPECT_EQ(a[i].link, b[i].link);
-    EXPECT_NEAR(a[i].fraction, b[i].fraction, slack);
-  }
 }
 
 /// A query with one of the pickers.

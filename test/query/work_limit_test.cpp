@@ -145,21 +145,5 @@ TEST(WorkLimitOfOrdinaryScenes, IsNotReached) {
   }
 }
 
-// The same request costs the same work. The answer does not depend on earlier requests.
-TEST_F(WorkLimit, IsTheSameForEveryQuery) {
-  const std::vector<Link> links = {
-      {"link", {LinkPart::box(Isometry3d::Identity(), {kFar, 0.2 * kFar, 0.01 * kFar})}}};
-  request_.links = &links;
-  const std::vector<FaceContact> first = contacts();
-  const std::size_t unresolved = result_.unresolved;
-  EXPECT_GT(unresolved, 0U);
-  expect_same(contacts(), first, 0.0);
-  EXPECT_EQ(result_.unresolved, unresolved);
-  request_.organ_before = nullptr;
-  request_.mode = QueryMode::kStatic;
-  contacts();
-  EXPECT_EQ(result_.unresolved, 0U);
-}
-
 }  // namespace
 }  // namespace organ_collision

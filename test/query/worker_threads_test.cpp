@@ -58,31 +58,6 @@ TEST(WorkerThreads, DoEachTaskOnceAndDeliverInOrder) {
   }
 }
 
-TEST(WorkerThreads, DeliverWhileLaterTasksRun) {
-  WorkerThreads workers(prepare_nothing);
-  workers.start(1);
-  std::promise<void> begun, delivered;
-  workers.run(
-      2,
-      [&](std::size_t worker, std::size_t task) {
-        if (worker == 0 && task == 0) begun.get_future().wait();
-        if (worker == 0 || task == 0) return;
-        begun.set_value();
-        delivered.get_future().wait();
-      },
-      [&](std::size_t task) {
-        if (task == 0) delivered.set_value();
-      });
-}
-
-TEST(WorkerThreads, TheCallerDeliversBetweenItsTasks) {
-  WorkerThreads workers(prepare_nothing);
-  std::size_t delivered = 0;
-  workers.run(
-      10, [&](std::size_t, std::size_t task) { EXPECT_EQ(delivered, task); },
-      [&](std::size_t) { ++delivered; });
-}
-
 TEST(WorkerThreads, ThrowTheFirstExceptionAndGoOnWithTheNextRound) {
   WorkerThreads workers(prepare_nothing);
   workers.start(3);
@@ -101,42 +76,6 @@ TEST(WorkerThreads, ThrowTheFirstExceptionAndGoOnWithTheNextRound) {
       EXPECT_STREQ(error.what(), "11");
     }
     EXPECT_EQ(delivered, numbers_up_to(11));
-  }
-}
-
-TEST(WorkerThreads, DoNothingMoreWhenADeliveryThrew) {
-  WorkerThreads workers(prepare_nothing);
-  workers.start(2);
-  std::atomic<int> running{0};
-  EXPECT_THROW(workers.run(
-                   100,
-                   [&](std::size_t, std::size_t task) {
-                     ++running;
-                     pass_time(task);
-                     --running;
-                   },
-                   [](std::size_t task) {
-                     if (task == 3) throw std::runtime_error("disk full");
-                   }),
-               std::runtime_error);
-  EXPECT_EQ(running, 0);
-}
-
-TEST(WorkerThreads, SkipTheRestAndDeliverAllThatIsBegun) {
-  WorkerThreads workers(prepare_nothing);
-  workers.start(2);
-  for (int round = 0; round < 10; ++round) {
-    std::atomic<std::size_t> begun{0};
-    std::size_t delivered = 0;
-    workers.run(
-        100'000,
-        [&](std::size_t, std::size_t task) {
-          ++begun;
-          if (task == 20) workers.skip_rest();
-        },
-        [&](std::size_t task) { EXPECT_EQ(task, delivered++); });
-    EXPECT_GE(delivered, 21u);
-    EXPECT_EQ(delivered, begun);
   }
 }
 

@@ -103,14 +103,6 @@ class CrtkTest(NodeStarter):
                 self.assertAlmostEqual(felt['spatial'][1] @ moving + felt['spatial'][2] @ turning,
                                        felt['body'][1] @ at_tip[0] + felt['body'][2] @ at_tip[1])
 
-    def test_a_wrench_in_a_frame_of_tf_needs_no_pose_of_the_arm(self):
-        """As the part of one organ, in the frame of the proxies."""
-        self.move(PLACE)
-        force, torque = np.array([0.3, -0.5, 1.2]), np.array([0.02, 0.01, -0.03])
-        right, log = 0.5 * matrix(TISSUE_TURN) @ force, self.logs['camera']
-        wait_until(lambda: self.tool.publish(wrench(force, torque, 'tissue')) or rospy.sleep(0.02) or log.last(
-            lambda m: np.allclose(values(m.wrench.force), right, atol=1e-9)), lambda: log.messages[-3:])
-
     def test_what_is_sent_is_finite_and_within_the_limits(self):
         """Whatever poses and wrenches come: turned in any way, far away, with any quaternion, or not finite."""
         random, odd = np.random.default_rng(4), (np.nan, np.inf, -np.inf, 0.0, 1e200)
@@ -167,13 +159,6 @@ class CrtkTest(NodeStarter):
             sizes = [np.linalg.norm(values(m.wrench.force)) for m in end]
             np.testing.assert_allclose(sizes, [0.8, 0.6, 0.4, 0.2, 0.0], atol=1e-9)
             self.assertTrue(np.isfinite([values(m.wrench.force) for m in log.messages]).all())
-
-    def test_the_rate_repeats_the_last_wrench(self):
-        self.move(PLACE)
-        self.feel((0.0, 1.0, 0.0), (0.0, 0.0, 0.0))
-        count = len(self.logs['spatial'].messages)
-        self.tool.publish(wrench((0.0, 1.0, 0.0), (0.0, 0.0, 0.0)))
-        wait_until(lambda: len(self.logs['spatial'].messages) > count + 3, 'repeated wrenches')
 
     def test_parameters_that_are_refused(self):
         for parameters, words in (({'max_force': -1}, ('max_force', '-1')), ({'torque_about': 'base'}, ('tip or axes',)),

@@ -7,7 +7,6 @@ import sys
 import threading
 import time
 
-from diagnostic_msgs.msg import DiagnosticArray
 from dynamic_reconfigure.msg import Config, DoubleParameter
 from dynamic_reconfigure.srv import Reconfigure
 from geometry_msgs.msg import TwistStamped, Vector3
@@ -16,7 +15,6 @@ from organ_collision.srv import RemoveOrgan
 from rosgraph_msgs.msg import Clock
 import rospy
 import rostest
-from std_srvs.srv import Trigger
 
 from support import scenes
 from support.node_client import Log, NodeClient, TfSender, wait_until
@@ -154,13 +152,6 @@ class GuardTest(NodeStarter):
         self.assertAlmostEqual(state.retreat.z, 1.0, 5)  # from the tip to the trocar
         wait_until(lambda: abs(self.hook.velocity - 0.005) < 1e-6, 'the tool retreats at `retreat_speed`')
 
-    def test_few_near_faces_are_warned_of(self):
-        rospy.set_param('/organ_collision/tools', [dict(TOOL, max_near=7)])
-        rospy.ServiceProxy('/organ_collision/reload_tools', Trigger)()
-        log = Log('/diagnostics', DiagnosticArray)
-        wait_until(lambda: any('max_near 7' in status.message for array in log.messages for status in array.status),
-                   'a warning')
-
     def test_nothing_that_a_clock_says_ends_them(self):
         """A guard and a program that obeys have a clock of their own, which jumps. Afterwards they go on."""
         rospy.set_param('/use_sim_time', True)
@@ -183,26 +174,6 @@ class GuardTest(NodeStarter):
             goes_on(lambda: rospy.Time(seconds, 999999999), lambda state: state.stage == GuardState.STOP)
             self.tf.send(('liver_frame', 'extreme', TROCAR, rospy.Time(seconds, 999999999)))
             goes_on(rospy.Time.now, lambda state: state.stage != GuardState.STOP)
-
-    def test_refusals(self):
-        node = '/without'
-        for change, guard, words in (({'margin': 0.0, 'max_near': 0}, {}, ["/without/tools: 'hook' has no `margin`"]),
-                                     ({'publish_placement': False}, {}, ['/without/publish_placement is false']),
-                                     ({}, {'touch_allowed': [{'organ': 'liver', 'link': 'shift'}]},
-                                      ["~touch_allowed has 'shift'", "nearest is 'shaft'"]),
-                                     ({}, {'tools': ['hock']}, ["~tools has 'hock'", "nearest is 'hook'"]),
-                                     ({'links': ['jaw'], 'urdf': '/no/such/file.urdf', 'trocar_frame': None, 'tip_frame': None, 'radius': None},
-                                      {'keep': [{'organ': 'liver', 'side': 'inside'}]},
-                                      ["/without/tools: 'hook' has no `tip_frame`", "'liver'"]),
-                                     ({}, {'error': 0.002}, ['~error', '~stop_distance']),
-                                     ({}, {'latency': 0.01}, ['~latency is ', '0.12'])):
-            placement = change.pop('publish_placement', True)
-            tool = {key: value for key, value in dict(TOOL, **change).items() if value is not None}
-            process = self.start(node, {'tools': [tool], 'publish_placement': placement})
-            self.assert_refused(self.start('/refused', dict(guard, collision_node=node), 'tool_guard'), words)
-            process.kill()
-            process.wait()
-            rospy.delete_param('/refused')
 
 
 if __name__ == '__main__':

@@ -11,7 +11,6 @@ import tempfile
 from geometry_msgs.msg import PoseStamped
 from organ_collision.msg import ContactArray, OrganMesh, ProxyState, VertexForces
 import roslaunch
-import roslib.packages
 import rospy
 import rostest
 from tf2_msgs.msg import TFMessage
@@ -119,16 +118,6 @@ class LaunchFilesTest(LaunchCase, NodeStarter):
         self.assertTrue(0 < int(summary[2]) <= int(summary[1]), summary[0])
         self.assertRegex(printed, r"\nThe palpator's hand: [1-9]\d* poses, ")
 
-    def test_no_parameter_of_an_earlier_launch_acts(self):
-        """Unless clear_params is false."""
-        yesterday = {'friction': 0.5, 'max_force_rate': 77.0, 'clearance': [{'organ': 'a', 'value': 0.01}]}
-        for arguments, left in ((), set()), (('clear_params:=false',), set(yesterday)):
-            rospy.set_param('/haptic_proxy', dict(yesterday, tools=[]))
-            with self.launched('launch/haptic_proxy.launch', *arguments):
-                self.check_hands('/haptic_proxy', rospy.get_param('/haptic_proxy/tools'))
-                self.assertEqual(set(rospy.get_param('/haptic_proxy')) & set(yesterday), left)
-        rospy.delete_param('/haptic_proxy')
-
     def test_every_launch_file_clears_the_parameters_of_its_nodes(self):
         paths = set().union(*(files(folder, '.launch') for folder in
                               ('launch', 'examples', 'examples/ambf', 'examples/sofa')))
@@ -140,23 +129,6 @@ class LaunchFilesTest(LaunchCase, NodeStarter):
                         if node.package == 'organ_collision' or 'load organ_collision/' in node.args}
                 cleared = {name.rstrip('/') for name in loaded.clear_params}
                 self.assertTrue(ours <= cleared if clears else not cleared, (path, ours - cleared))
-
-    def test_the_rviz_file_names_displays_that_rviz_has(self):
-        (path,) = files('config', '.rviz')
-        with open(os.path.join(PACKAGE, path)) as text:
-            configuration = yaml.safe_load(text)
-        manager = configuration['Visualization Manager']
-        named = configuration['Panels'] + manager['Displays'] + manager['Tools'] + [manager['Views']['Current']]
-        classes = {part['Class'] for part in named}
-        self.assertGreaterEqual(classes, {'rviz/MarkerArray', 'rviz/Displays', 'rviz/Orbit'})
-        self.assertEqual([name for name in classes if not re.fullmatch(r'rviz/\w+', name)], [])
-        try:
-            plugins = os.path.join(roslib.packages.get_pkg_dir('rviz'), 'plugin_description.xml')
-        except roslib.packages.InvalidROSPkgException:
-            return  # RViz is not installed.
-        with open(plugins) as text:
-            known = set(re.findall(r'class name="(rviz/\w+)"', text.read())) | {'rviz/Displays'}
-        self.assertEqual(classes - known, set())
 
     def test_every_configuration_file(self):
         """A file with tools starts a collision node that answers, or a haptic_proxy that tells the state of each of

@@ -7,15 +7,13 @@ import threading
 
 from dynamic_reconfigure.client import Client
 from geometry_msgs.msg import PoseStamped
-from organ_collision.msg import ContactArray, Grasp
-from organ_collision.srv import ListTools
+from organ_collision.msg import ContactArray
 import rospy
 import rostest
 from std_srvs.srv import Trigger
 
-from support import scenes
 from support.contact_case import KeepsContract
-from support.node_client import LIMIT, Log, is_heard, pose_stamped, wait_until
+from support.node_client import LIMIT, is_heard, pose_stamped, wait_until
 from support.tool_case import ToolCase
 from support.tool_over_sheet import SHEET, at_height
 
@@ -27,15 +25,6 @@ AT_START = {'rate': 0.0, 'publish_regions': False, 'publish_placement': True, 't
 
 def shaft(name, radius=0.005, **more):
     return dict(name=name, trocar_frame=name + '_trocar', tip_frame=name + '_tip', radius=radius, **more)
-
-
-PINCERS = {'name': 'pincers', 'links': ['upper', 'lower'], 'first_jaw': ['upper'], 'second_jaw': ['lower'],
-           'robot_description': '/robots/pincers', 'tf_prefix': 'pincers'}
-
-
-def pinching(height):
-    """The centres of the two balls, of a radius of 6 mm: above and below one place of the sheet."""
-    return {'pincers': ((0.013, 0.007, height), (0.013, 0.007, -height))}
 
 
 class LiveChangesTest(KeepsContract, ToolCase):
@@ -107,83 +96,13 @@ class LiveChangesTest(KeepsContract, ToolCase):
             while thread.is_alive():
                 self.step(SHEET, {'kept': at_height(0.05 if steps % 2 else -0.05)}, vertices=True)
                 steps += 1
+                rospy.sleep(0.01)  # Otherwise the stamps of the steps run ahead of the clock.
             thread.join()
         self.assertFalse(answers[0].success)
         self.assertRegex(answers[0].message, 'robot_reader (was ended by signal|took more than 30 s)')
         self.assertGreater(steps, 2)
         self.assert_no_gap('kept')
         self.assertEqual(self.reloaded(), "removed: 'kept'")
-
-    def test_a_grasp_goes_on_through_reloads_and_cuts(self):
-        """It ends when the jaws open, and with a reason where something else ends it."""
-        grasps = Log(NODE + '/grasps', Grasp).wait_for_publisher()
-        told = lambda: [(g.grasp, g.event, g.topology, g.reason) for g in grasps.select(lambda g: g.organ == self.organ)]
-        self.assertEqual(self.reloaded(PINCERS), "new: 'pincers'")
-        tool, = rospy.ServiceProxy(NODE + '/list_tools', ListTools)().tools
-        self.assertEqual((tool.first_jaw, tool.second_jaw), (['upper'], ['lower']))
-        self.step(SHEET, pinching(0.0065))
-        self.step(SHEET, pinching(0.0055), vertices=True)
-        self.assertEqual(told(), [])
-        answer = self.step(SHEET, pinching(0.0055), vertices=True)['pincers']
-        wait_until(told, 'the grasp')
-        grasped = grasps.last()
-        self.assertEqual((grasped.header.frame_id, grasped.header.stamp, grasped.tool, grasped.reason),
-                         (self.node.frame, answer.header.stamp, 'pincers', ''))
-        for link, faces in enumerate((grasped.faces_first, grasped.faces_second)):
-            self.assertEqual(list(faces), sorted({c.face for c in answer.contacts if c.link == link and c.touching}))
-            self.assertGreater(len(faces), 0)
-        self.assertLess(grasped.thickness, 0.001)
-        self.assertEqual(self.reloaded(shaft('saw'), PINCERS), "unchanged: 'pincers'; new: 'saw'")
-        cut = scenes.sheet(0.1, 5)
-        end = self.step(cut, pinching(0.0055), topology=2)['pincers'].header.stamp
-        self.step(cut, pinching(0.0065), topology=2, vertices=True)
-        wait_until(lambda: len(told()) > 1, 'the release')
-        self.assertEqual(grasps.last().header.stamp, end)
-        self.assertAlmostEqual(grasps.last().duration_sec, (end - grasped.header.stamp).to_sec(), delta=1e-6)
-        events = [(1, Grasp.GRASPED, 1, ''), (1, Grasp.RELEASED, 2, 'opened')]
-        self.assertEqual(told(), events)
-        for number, reason, act in ((2, 'reset', self.node.reset),
-                                    (3, 'organ removed', lambda: self.node.remove(self.organ)),
-                                    (1, 'tools changed', lambda: self.reloaded(shaft('saw')))):
-            self.step(SHEET, pinching(0.0055), topology=1)
-            self.step(SHEET, pinching(0.0055), topology=1, vertices=True)
-            wait_until(lambda: told()[-1][1] == Grasp.GRASPED, 'a grasp')
-            act()
-            wait_until(lambda: told()[-1][1] == Grasp.RELEASED, reason)
-            events += [(number, Grasp.GRASPED, 1, ''), (number, Grasp.RELEASED, 1, reason)]
-            self.assertEqual(told(), events)
-        self.assertEqual(self.reload(dict(PINCERS, second_jaw=['lowr'])).message,
-                         "~tools[0]/second_jaw is '{lowr}'; 'lowr' is no link of the tool; nearest is 'lower', legal are "
-                         'upper, lower')
-
-    def test_what_is_illegal_changes_nothing(self):
-        """Subscriptions are the last thing that can fail, and must not leave half of the new list."""
-        self.reloaded(shaft('kept'))
-        self.step(SHEET, {'kept': at_height(0.05)})
-        robot = {'name': 'robot', 'links': ['jaw'], 'urdf': '/no/such/file.urdf'}
-        posed = shaft('posed', tip_pose_topic='/tf')
-        del posed['tip_frame']
-        for tools, words in (
-            ([shaft('kept', radius=-0.25)], ['~tools[0]/radius', '-0.25', 'above 0']),
-            ([shaft('new'), robot], ["robot: urdf '/no/such/file.urdf'"]),
-            ([posed], ['/tf']),
-        ):
-            answer = self.reload(*tools)
-            self.assertFalse(answer.success, tools)
-            for word in words:
-                self.assertIn(word, answer.message)
-            self.step(SHEET, {'kept': at_height(0.05)}, vertices=True)
-        self.assert_no_gap('kept')
-        self.assertEqual({a.tool for a in self.node.contacts.of(self.organ)}, {'kept'})
-
-    def test_the_robot_description_is_read_anew(self):
-        robot = {'name': 'robot', 'links': ['wrist'], 'tf_prefix': 'arm'}
-        self.reloaded(robot)
-        self.assertEqual(self.reloaded(robot), "unchanged: 'robot'")
-        urdf = rospy.get_param('/robot_description')
-        self.assertEqual(urdf.count('"0.02 0.04 0.06"'), 1)
-        rospy.set_param('/robot_description', urdf.replace('"0.02 0.04 0.06"', '"0.02 0.04 0.07"'))
-        self.assertEqual(self.reloaded(robot), "changed: 'robot'")
 
     def test_no_pose_is_lost(self):
         """The tip's poses come on a topic while the tool changes its place in the list."""
@@ -206,16 +125,6 @@ class LiveChangesTest(KeepsContract, ToolCase):
             answer = send(height)
             self.assertEqual(answer.mode, SWEPT)
             self.assertGreater(len(answer.contacts), 0)
-
-    def test_parameters_are_described_with_their_limits(self):
-        described = {p['name']: p for p in self.client.get_parameter_descriptions(LIMIT)}
-        self.assertEqual(set(described), set(AT_START) | {'markers_rate', 'surface_rate', 'markers_depth', 'grasp_hold_sec'})
-        self.assertEqual((described['rate']['min'], described['rate']['max']), (0.0, 10000.0))
-        self.assertEqual(described['tf_timeout_sec']['default'], 0.02)
-        for changes in ({'rate': 10001.0, 'publish_regions': True}, {'tf_timeout_sec': float('nan')}):
-            now = self.client.update_configuration(changes)
-            self.assertEqual({name: now[name] for name in AT_START}, AT_START, changes)
-        self.assertEqual(rospy.get_param(NODE + '/rate', 0.0), 0.0)
 
     def test_parameters_change(self):
         """A rate, regions, the timeout of meshes, and placement."""

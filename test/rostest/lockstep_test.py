@@ -5,8 +5,6 @@ shape. No test depends on how fast shapes are answered."""
 import sys
 import time
 
-from dynamic_reconfigure.msg import DoubleParameter
-from dynamic_reconfigure.srv import Reconfigure, ReconfigureRequest
 from geometry_msgs.msg import WrenchStamped
 import numpy as np
 from organ_collision.msg import OrganMesh, OrganVertices, ProxyState, VertexForces
@@ -107,21 +105,6 @@ class LockstepTest(NodeStarter):
     def test_a_tool_that_rests_on_tf_is_where_it_was_last(self):
         self.begin()
         self.check_steps(moves=False)
-
-    def test_a_lower_limit_holds_without_a_shape(self):
-        """State and wrench are sent again, but no forces on the shape, which had its answer."""
-        self.begin()
-        self.step(0.006)
-        self.assertGreater(self.states.last().wrench.force.z, 0.5)
-        request = ReconfigureRequest()
-        request.config.doubles = [DoubleParameter('max_force', 0.25)]
-        rospy.ServiceProxy(self.name + '/set_parameters', Reconfigure)(request)
-        wait_until(lambda: len(self.states.messages) == len(self.wrenches.messages) == 2, 'the lower force')
-        state, wrench = self.states.last(), self.wrenches.last()
-        for message in (state, wrench):
-            self.assertAlmostEqual(np.linalg.norm(vector(message.wrench.force)), 0.25, delta=1e-9)
-            self.assertEqual(message.header.stamp, self.forces.last().mesh_stamp)
-        self.assertEqual((state.state, state.clipped, len(self.forces.messages)), (ProxyState.TOUCHING, True, 1))
 
     def test_a_tool_of_static_transforms(self):
         self.tf.send_resting((FRAME, self.tip_frame, POSE))

@@ -3,7 +3,6 @@
 comes late. They leave nothing of what is gone. The view of RViz fits the organs that they show."""
 
 import importlib.util
-import math
 import os
 import sys
 import tempfile
@@ -12,9 +11,8 @@ import time
 import unittest
 import unittest.mock
 
-from geometry_msgs.msg import Point, PoseStamped
+from geometry_msgs.msg import Point
 import numpy
-from organ_collision.msg import OrganMesh
 import rospy
 import rostest
 from std_msgs.msg import Bool
@@ -22,7 +20,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 import yaml
 
 from support.launch_case import PACKAGE
-from support.node_client import NodeClient, TfSender, mesh_message, pose_stamped, wait_until
+from support.node_client import NodeClient, TfSender, wait_until
 from support.processes import NodeStarter
 from support.tool_over_sheet import SHEET
 
@@ -101,36 +99,6 @@ class MarkersTest(NodeStarter):
         viewer.wait_for({'surface/sheet', 'status'})
         client.remove('sheet')
         viewer.wait_for(set())
-        self.stop(process)
-
-    def test_hand_and_proxy(self):
-        frame, height = 'organ', 0.02
-        tool = {'name': 'probe', 'trocar_frame': 'hand_trocar', 'tip_pose_topic': '/probe/pose', 'radius': 0.005}
-        hand = rospy.Publisher('/probe/pose', PoseStamped, queue_size=100)
-        meshes = rospy.Publisher('/hands/organ_mesh', OrganMesh, queue_size=1, latch=True)
-        transforms = TfSender()
-        transforms.send_resting((frame, 'hand_trocar', (0, 0, 0.3)))
-        process = self.start('/hands', {'tools': [tool], 'stiffness': 200.0, 'pose_timeout_sec': 0.3,
-                                        'max_force': math.inf}, 'haptic_proxy')
-        viewer = Viewer('/hands/markers')
-        meshes.publish(mesh_message('sheet', SHEET, frame=frame))
-
-        def holds(target, state, shown):
-            """Moves the hand by a small step. Returns whether it is there and what is shown."""
-            nonlocal height
-            height += math.copysign(min(abs(target - height), 1e-3), target - height)
-            hand.publish(pose_stamped(frame, (0.013, 0.007, height), rospy.Time.now()))
-            time.sleep(0.005)
-            return height == target and viewer.text('state') == state and viewer.namespaces() == shown
-
-        shown = {'surface/sheet', 'status', 'state', 'proxy'}
-        wait_until(lambda: holds(0.02, 'probe: FREE, 0.0 N', shown), viewer.namespaces)
-        self.assertEqual([m.type for m in viewer.of('proxy')], [Marker.CYLINDER, Marker.SPHERE, Marker.SPHERE])
-        shown |= {'hand', 'spring', 'loads'}
-        wait_until(lambda: holds(-0.02, 'probe: TOUCHING, 5.0 N', shown), viewer.namespaces)
-        # The hand is silent: there is no answer any more.
-        wait_until(lambda: viewer.text('state').startswith('probe: NO_ANSWER: '), lambda: viewer.text('state'))
-        viewer.wait_for({'surface/sheet', 'status', 'state', 'hand'})
         self.stop(process)
 
 
@@ -221,29 +189,6 @@ class ViewTest(unittest.TestCase):
         os.remove(self.rviz)
         running.join(30)
         self.assertEqual(codes, [7])
-
-    def test_a_picture_is_taken_when_rviz_draws_nothing_new(self):
-        """There are programs in place of Xvfb, which ends with this test, and import, which draws two different pictures."""
-        self.write_program('Xvfb', '#!%s\nimport os, sys, time\nos.write(int(sys.argv[2]), b"77\\n")\ntime.sleep(600)\n'
-                           % sys.executable)
-        self.write_program('import', '#!/bin/sh\necho $DISPLAY >>"$0.calls"\ntail -n 2 "$0.calls" >"$4"\n')
-        self.send((0, 0, 0), (0.1, 0.1, 0.1))
-        self.view.View(self.organs, self.topic, '', self.path, angles=(-90, 30))
-        folder, self.view.STILL, self.view.PICTURES = os.path.dirname(self.path), 0.1, 10
-        picture, calls = (os.path.join(folder, name) for name in ('liver.png', 'import.calls'))
-        with unittest.mock.patch.dict(os.environ, PATH=folder + ':' + os.environ['PATH']):
-            self.view.take_picture(self.rviz, self.path, (640, 400), picture)
-            with open(calls) as made, open(picture) as drawn:
-                self.assertEqual((made.read(), drawn.read()), (3 * ':77\n', 2 * ':77\n'))
-            with open(self.path) as text:
-                self.shown = yaml.safe_load(text)
-            self.assert_fits((0, 0, 0), (0.1, 0.1, 0.1))
-            window, view = self.shown['Window Geometry'], self.shown['Visualization Manager']['Views']['Current']
-            self.assertEqual((window['Width'], window['Height']), (640, 400))
-            numpy.testing.assert_allclose((view['Yaw'], view['Pitch']), numpy.radians((-90, 30)))
-            self.write_program('import', '#!/bin/sh\nexit 1\n')
-            with self.assertRaisesRegex(RuntimeError, 'no picture of RViz: .*import'):
-                self.view.take_picture(self.rviz, self.path, (640, 400), picture)
 
 
 class AllTests(unittest.TestSuite):

@@ -4,12 +4,11 @@
 import math
 import sys
 
-from organ_collision.msg import ContactArray, OrganMesh, OrganVertices
+from organ_collision.msg import ContactArray, OrganVertices
 import rospy
 from rosgraph_msgs.msg import Log as LogLine
 import rostest
 from std_msgs.msg import String
-from visualization_msgs.msg import Marker
 
 from support import scenes
 from support.contact_case import ContactCase
@@ -113,36 +112,6 @@ class MeshAdapterTest(ContactCase, NodeStarter):
         self.assertGreaterEqual(said.count('shape, messages received'), said.count('shape, messages converted'))
         process = self.start('/wrong', {'organs': [dict(ORGAN, scale=0)]}, 'organ_mesh_adapter')
         self.assert_refused(process, ('~organs[0]/scale is 0', 'above 0'))
-
-    def test_a_late_node_gets_every_organ_as_it_is(self):
-        meshes, shapes = Log('/late/organ_mesh', OrganMesh), Log('/late/organ_vertices', OrganVertices)
-        for log in (meshes, shapes):
-            log.wait_for_publisher()
-        stamp, adapter = rospy.Time.now(), '/early_adapter'
-        for topic, message in (('first', shape_mesh(FINE)), ('second', polygon_mesh(SHEET)), ('gone', marker(SHEET))):
-            self.publish('/early/' + topic, message, adapter)
-            wait_until(lambda: of(meshes, topic), 'mesh of ' + topic)
-        self.publish('/early/second_points', cloud(LOWER.vertices, stamp=stamp), adapter)
-        self.publish('/early/gone', Marker(action=Marker.DELETEALL), adapter)
-        wait_until(lambda: of(shapes, 'second'), 'vertices of the second organ')
-        wait_until(lambda: not of(meshes, 'gone')[-1].triangles, 'the removal')
-        for mesh in (FINE, FINE_LOWER):
-            process = self.start('/late', {'tools': []})
-            node = NodeClient('/late')
-            self.assertEqual(self.wait_for_contacts('second', LOWER, node).mesh_stamp, stamp)
-            self.assertEqual(node.query('gone', FAR_AWAY).status, ContactArray.UNKNOWN_ORGAN)
-            # The adapter may connect its vertices to the node later than its meshes.
-            self.wait_for_contacts('first', mesh, node, lambda: self.publish('/early/first', shape_mesh(mesh), adapter))
-            node.close()
-            self.stop(process)
-
-    def test_a_restarted_adapter_is_not_taken_for_the_old_one(self):
-        """The collision node still has the old adapter's triangles and topology number."""
-        for name, mesh in (('/first', SHEET), ('/second', FINE), ('/third', SHEET)):
-            process = self.start(name, {'organs': [ORGAN]}, 'organ_mesh_adapter')
-            self.publish('/restart/liver', shape_mesh(mesh), name)
-            self.wait_for_contacts('liver', mesh)
-            self.stop(process)
 
 
 if __name__ == '__main__':

@@ -9,17 +9,15 @@ import sys
 import time
 
 from diagnostic_msgs.msg import DiagnosticStatus
-from geometry_msgs.msg import Pose, PoseStamped
-from organ_collision.msg import Contact, ContactArray, OrganMesh
+from organ_collision.msg import Contact, ContactArray
 import roslib.packages
 import rospy
 import rostest
 from std_srvs.srv import Trigger
 
 from support.contact_case import ContactCase
-from support.node_client import (LIMIT, Diagnostics, Log, NodeClient, TfSender, is_heard, mesh_message, pose_stamped,
-                                 shaft, wait_until)
-from support.processes import NodeStarter, process_of
+from support.node_client import LIMIT, Diagnostics, NodeClient, is_heard, shaft, wait_until
+from support.processes import NodeStarter
 from support.tool_over_sheet import RADIUS, SHEET, at_height, depth_at
 
 TOOL = {'name': 'grasper', 'trocar_frame': 'grasper_trocar', 'tip_frame': 'grasper_tip', 'radius': 0.005}
@@ -50,34 +48,6 @@ class StartTest(ContactCase, NodeStarter):
     def setUp(self):
         self.name = '/' + self.id().split('.')[-1]
 
-    def test_refusals(self):
-        """The parameter, its value, and what is legal. Mesa would end the process if it did not know the driver."""
-        driver, started = ('env', 'GALLIUM_DRIVER=nonsense'), []
-        for i, (parameters, through, *words) in enumerate((
-            ({}, (), 'tools', 'missing'),
-            ({'tools': [TOOL], 'picker': 'raytrace'}, (), 'picker', 'raytrace', 'feedback', 'select', 'cpu'),
-            ({'tools': [TOOL, dict(TOOL, name='other', radius=float('nan'))]}, (), 'tools[1]/radius', 'nan', '0'),
-            ({'tools': [dict(TOOL, raduis=0.004)]}, (), 'tools[0]/raduis is no parameter', "nearest is 'radius'"),
-            ({'tools': [dict(TOOL, radius=5.0)]}, (), 'tools[0]/radius', 'above 0, up to 1'),
-            ({'tools': [TOOL], 'gl': 'osmesa'}, driver, 'GALLIUM_DRIVER', 'nonsense', 'llvmpipe', 'softpipe'),
-            ({'tools': [TOOL]}, self.without('osmesa_egl'), 'libOSMesa.so.8', 'libEGL.so.1', 'picker: cpu'),
-        )):
-            started.append((self.start('%s_%d' % (self.name, i), parameters, through=through), words))
-        for process, words in started:
-            self.assert_refused(process, words)
-
-    def test_misspelt_names_and_implausible_sizes_are_reported(self):
-        parameters = {'tools': [dict(TOOL, radius=0.5)], 'tf_timeout': 0.5, 'publish_region': True}
-        process = self.start(self.name, parameters)
-        node = NodeClient(self.name)
-        answer = node.query('liver', tool='grasper')  # There is no mesh yet.
-        self.assertIn(answer.status, (ContactArray.NO_MESH, ContactArray.UNKNOWN_ORGAN))
-        self.assertIn('liver', answer.message)
-        printed = self.stop(process)
-        for words in ('tf_timeout ', 'tf_timeout_sec', 'publish_region ',
-                      "tool 'grasper' has a radius of 0.5 m", 'ready: 1 tool,'):
-            self.assertIn(words, printed)
-
     def start_each(self, **parameters):
         """The three nodes, by name. The parameters are those of the nodes with organs."""
         rows = {'organ_collision_node': dict(parameters, tools=parameters.get('tools', [TOOL])), 'tool_guard': {}}
@@ -105,36 +75,6 @@ class StartTest(ContactCase, NodeStarter):
         for process in nodes.values():
             self.assertIn('no time has come on /clock', self.stop(process))
 
-    def test_poses_of_another_type_or_far_away_are_named(self):
-        """On a topic and on TF: the tip is 100 m away, as in millimetres."""
-        tools = [dict(TOOL, name='typed', tip_pose_topic='/typed/pose', tip_frame='typed_tip'),
-                 dict(TOOL, name='streamed', tip_pose_topic='/streamed/pose', tip_frame='streamed_tip'), TOOL]
-        nodes = self.start_each(tools=tools, rate=20.0)
-        typed = rospy.Publisher('/typed/pose', Pose, queue_size=1)
-        streamed = rospy.Publisher('/streamed/pose', PoseStamped, queue_size=1)
-        meshes = [rospy.Publisher(name + '/organ_mesh', OrganMesh, queue_size=1, latch=True) for name in nodes]
-        for mesh in meshes:
-            mesh.publish(mesh_message('sheet', SHEET, rospy.Time()))
-        tf = TfSender()
-        tf.send_resting(('liver_frame', 'grasper_trocar', (0.0, 0.0, 0.1)))
-        said = {name: Diagnostics(name) for name in nodes if 'guard' not in name}
-
-        def has_said(name, task, *words):
-            typed.publish(Pose())
-            streamed.publish(pose_stamped('liver_frame', (0.0, 0.0, 100.0), rospy.Time.now()))
-            tf.send(('liver_frame', 'grasper_tip', (0.0, 120.0, 0.0), rospy.Time.now()))
-            return any(all(word in summary for word in words) for summary in said[name].summaries.get(task, []))
-
-        for name in said:
-            for task, *words in (('messages', '/typed/pose', 'type geometry_msgs/Pose;', 'geometry_msgs/PoseStamped'),
-                                 ('tools', "tool 'streamed' is 1", "'sheet'", 'millimetres'),
-                                 ('tools', "tool 'grasper' is 1", "'sheet'", 'millimetres')):
-                wait_until(lambda: has_said(name, task, *words) or time.sleep(0.01),
-                           lambda: '%s: %s in %s' % (name, words, {t: s[-1] for t, s in said[name].summaries.items()}))
-        answers = Log(self.name + 'organ_collision_node/contacts', ContactArray)
-        wait_until(lambda: answers.last(lambda m: m.tool == 'typed' and 'type geometry_msgs/Pose;' in m.message),
-                   lambda: answers.messages[-1:])
-
     def without(self, libraries):
         """The words of a command that runs a node where these GL libraries are missing: files that are no libraries
         come first."""
@@ -152,17 +92,6 @@ class StartTest(ContactCase, NodeStarter):
             node.bring('sheet', SHEET, rospy.Time(1))
             self.assert_finds_contacts(node)
             self.assertIn(said, self.stop(process))
-
-    def test_a_latched_mesh_waits_for_the_node(self):
-        """The organ is sent once, before the node starts. The node starts, ends, and starts again."""
-        latched = rospy.Publisher(self.name + '/organ_mesh', OrganMesh, queue_size=1, latch=True)
-        latched.publish(mesh_message('sheet', SHEET, rospy.Time(1), topology=3))
-        for _ in range(2):
-            process = self.start(self.name, {'tools': [TOOL]})
-            node = NodeClient(self.name)
-            node.wait_for_shape('sheet', rospy.Time(1), topology=3)
-            self.assert_finds_contacts(node)
-            self.stop(process)
 
     @staticmethod
     def scheduling(node):
@@ -197,13 +126,6 @@ class StartTest(ContactCase, NodeStarter):
         for words in ('realtime_priority 7 is refused: Operation not permitted', 'limit rtprio to at least 7',
                       'lock_memory is refused: locked memory is limited to 64 kB'):
             self.assertIn(words, printed)
-
-    def test_real_time_in_a_nodelet_leaves_the_other_threads_of_its_manager_alone(self):
-        values, manager = self.scheduling('in_manager')[1], process_of('/manager')
-        granted = realtime_threads(manager)
-        self.assertEqual(bool(granted), values['scheduling'].startswith('SCHED_FIFO'))
-        self.assertNotIn(manager, granted)
-        self.assertEqual(locked_kilobytes(manager), 0)
 
     def test_exit_codes_of_check_contacts(self):
         """By the answers on its topics: good, bad, and none."""

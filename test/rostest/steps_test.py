@@ -1,6 +1,5 @@
 #!/usr/bin/python3
-"""The `contacts` that the node publishes in simulated time: step by step, as poses of tips arrive, and at a fixed rate.
-Transforms that lag, and a clock that jumps. The sequences of messages are in test/ros/steps."""
+"""The `contacts` that the node publishes in simulated time. The sequences of messages are in test/node/steps."""
 
 import sys
 
@@ -13,12 +12,11 @@ from support import scenes
 from support.contact_case import KeepsContract
 from support.node_client import FAR_AWAY, Log, NodeClient, is_heard, mesh_message, pose_stamped, wait_until
 from support.tool_case import SimulatedCase
-from support.tool_over_sheet import RADIUS, SHEET, TROCAR, at_height, depth_at
+from support.tool_over_sheet import RADIUS, SHEET, at_height, depth_at
 
 STATIC, SWEPT = ContactArray.STATIC, ContactArray.SWEPT
 HIGH, LOW = 0.05, -0.04  # [m] heights of tips over the sheet and below it
-BALL, ARM = 0.006, 0.004  # [m] radii
-BASE = scenes.Pose((0.3, -0.2, 0.1, 0.9), TROCAR)  # of the arm PSM1 in the organ's frame
+BALL = 0.006  # [m] radius
 
 
 class StepsTest(KeepsContract, SimulatedCase):
@@ -78,65 +76,6 @@ class StepsTest(KeepsContract, SimulatedCase):
             self.assert_depth(result, depth_at(LOW))
             self.assertEqual(result.topology, topology)
 
-    def await_transform(self):
-        """Makes the patient node wait for the transform of the organ's last shape. Returns its client and the stamp."""
-        node = self.connected('/patient')
-        self.place('grasper', (at_height(HIGH), self.next_stamp()))
-        node.send_mesh(self.organ, SHEET, self.stamp)
-        self.assert_ok(node.contacts.wait_for(self.organ, 'grasper', mesh_stamp=self.stamp))
-        node.send_vertices(self.organ, SHEET, self.next_stamp())
-        node.wait_for_shape(self.organ, self.stamp)
-        self.assertEqual(node.contacts.of(self.organ, mesh_stamp=self.stamp), [])
-        return node, self.stamp
-
-    def test_a_transform_that_lags_is_awaited(self):
-        """The shape is evaluated as soon as the transform arrives. Meanwhile, services answer."""
-        node, stamp = self.await_transform()
-        self.assertEqual(node.query(self.organ, tool='grasper').status, ContactArray.OK)
-        self.place('grasper', (at_height(0.002), stamp))
-        result = node.contacts.wait_for(self.organ, 'grasper', mesh_stamp=stamp)
-        self.assert_step(result, SWEPT, depth_at(0.002))
-
-    def test_the_limit_of_waiting_counts_in_simulated_time(self):
-        """60 s are over in a moment."""
-        node, stamp = self.await_transform()
-        self.next_stamp(self.clock.now - self.stamp + rospy.Duration(61))
-        result = node.contacts.wait_for(self.organ, 'grasper', mesh_stamp=stamp)
-        self.assert_no_transform(result, 'ms behind the stamp', 'waited 60 s')
-
-    def test_a_jump_back_forgets_the_history(self):
-        """Also while a transform is awaited: a shape of the old time is not evaluated with a transform of the new
-        time."""
-        for seconds in (9000, 5000):
-            self.jump(seconds)
-            self.assertEqual(self.move(HIGH, vertices=False).mode, STATIC)
-            self.assert_step(self.move(LOW), SWEPT, depth_at(LOW))
-        self.node.send_vertices(self.organ, SHEET, self.next_stamp())
-        self.jump(4000)
-        self.assert_step(self.move(LOW), STATIC, depth_at(LOW))
-        self.node.diagnostics.values.clear()
-        wait_until(lambda: self.node.diagnostics.values, 'diagnostics after the jump')
-
-    def test_ticks(self):
-        """They come in the simulator's time, and not while it stands still. Of all ticks, only the one in which the tip
-        goes through the sheet finds its faces."""
-        node = self.connected('/ticking')
-        above, below = (((0.4, 0.007, height), (0.013, 0.007, height)) for height in (0.05, -0.05))
-        with self.clock.lock:
-            self.place('grasper', (above, self.next_stamp()))
-            node.bring(self.organ, SHEET, self.stamp)
-            node.contacts.wait_for(self.organ, 'grasper', status=ContactArray.OK)
-            self.place_and_wait('grasper', below, self.next_stamp())
-            before = len(node.contacts.of(self.organ))
-            for _ in range(10):
-                count = len(node.contacts.of(self.organ))
-                self.clock.tick()
-                wait_until(lambda: len(node.contacts.of(self.organ)) > count, 'one more tick')
-            answers = node.contacts.of(self.organ)
-            self.assertLessEqual(len(answers) - before, 10 + 5)  # A few are from before.
-            (hit,) = [answer for answer in answers if answer.contacts]
-            self.assert_step(hit, SWEPT, RADIUS + 0.05)
-
     def test_no_clock_and_no_stamp_ends_a_node(self):
         """The clock goes to the ends of what ROS can count, and messages have stamps from there. Afterwards, all nodes
         answer as before."""
@@ -172,24 +111,6 @@ class StepsTest(KeepsContract, SimulatedCase):
         meshes.publish(mesh_message(self.organ, SHEET, self.stamp))
         wait_until(lambda: states.last() and begin <= states.last().header.stamp <= self.clock.now,
                    'a state of the proxy')
-
-    def test_each_pose_of_a_tip_is_answered_without_a_new_shape(self):
-        node = self.connected('/posed')
-        arm, base = (rospy.Publisher(topic, PoseStamped, queue_size=1000, latch=latch) for topic, latch in (
-            ('/PSM1/local/measured_cp', False), ('/SUJ/PSM1/measured_cp', True)))
-        wait_until(lambda: is_heard(arm, '/posed') and is_heard(base, '/posed'), 'the topics of PSM1')
-        base.publish(pose_stamped('liver_frame', BASE.translation, rotation=BASE.rotation))
-        first, start = self.stamp + rospy.Duration(0, 10**6), None
-        for height, mode, depth in ((HIGH, STATIC, None), (LOW, SWEPT, depth_at(LOW, ARM)), (HIGH, SWEPT, None)):
-            stamp = self.next_stamp(rospy.Duration(0, 10**6))
-            arm.publish(pose_stamped('PSM1_base', BASE.inverse().apply(at_height(height)[1]), stamp))
-            if stamp == first:
-                node.send_mesh(self.organ, SHEET, stamp)
-            answer = node.contacts.wait_for(self.organ, 'PSM1', stamp=stamp, status=ContactArray.OK)
-            self.assertEqual((answer.mode, answer.mesh_stamp, answer.step_start), (mode, first, start or stamp))
-            if depth:
-                self.assert_depth(answer, depth)
-            start = stamp
 
 
 if __name__ == '__main__':

@@ -50,16 +50,6 @@ class ToolsTest(KeepsContract, ToolCase):
         self.assertAlmostEqual(min(c.fraction for c in second['left'].contacts), 0.4 * (0.04 - BALL) / 0.09, delta=1e-6)
         self.assert_depth(second['right'], None)
 
-    def test_a_shaft_and_a_link(self):
-        first = self.step(SHEET, {'hook': ABOVE})['hook']
-        self.assert_depth(first, None)
-        result = self.step(SHEET, {'hook': BELOW}, vertices=True)['hook']
-        self.assertEqual((result.mode, result.step_start, result.links), (SWEPT, first.header.stamp, ['ball']))
-        for link, depth in ((-1, depth_at(-0.04)), (0, depth_at(-0.03, BALL))):
-            self.assertAlmostEqual(max(c.depth for c in result.contacts if c.link == link), depth, delta=1e-6)
-        order = [(c.face, c.link) for c in result.contacts]
-        self.assertEqual(order, sorted(order))
-
     def test_bad_tools_say_what_is_wrong_in_each_answer(self):
         """In those to steps and queries, and on /diagnostics."""
         self.step(SHEET, {'hook': ABOVE})

@@ -47,11 +47,6 @@ TEST(Conversions, FrameWithoutLeadingSlash) {
   }
 }
 
-Eigen::AlignedBox3d box(double x, double y, double z) {
-  const Eigen::Vector3d low(0.3, -7.0, 0.1);
-  return {low, low + Eigen::Vector3d(x, y, z)};
-}
-
 TEST(Clock, ItsEndsAreNoErrors) {
   const ros::Time last(4294967295, 999999999);
   EXPECT_EQ(later(ros::Time(10.0), 0.5), ros::Time(10.5));
@@ -64,35 +59,6 @@ TEST(Clock, ItsEndsAreNoErrors) {
               std::string::npos);
     EXPECT_EQ(AheadLimit(1.0).fault(ros::Time(4294966999.9), now), "");
   }
-}
-
-TEST(PlausibleSize, OrgansByTheirLongestSideAndShaftsByTheirRadius) {
-  const std::string lengths = " m. Lengths are in metres: ", large = "are these millimetres?",
-                    small = "were they converted from millimetres twice?";
-  const std::string of_organs = "; plausible are 0.001 to 3" + lengths,
-                    of_radii = "; plausible are 2e-05 to 0.1" + lengths;
-  EXPECT_EQ(sides_of(box(0.12, 0.09, 0.061234)), "0.12 x 0.09 x 0.0612");
-  for (const auto& [sides, doubt] :
-       {std::pair(box(0.12, 0.09, 0.06), std::string()),
-        std::pair(box(0.0, 0.1, 0.1), std::string()), std::pair(box(0.5, 1.9, 0.4), std::string()),
-        std::pair(box(90, 120, 60), "organ 'liver' is 90 x 120 x 60 m large" + of_organs + large),
-        std::pair(box(0, 0, 0), "organ 'liver' is 0 x 0 x 0 m large" + of_organs + small)}) {
-    EXPECT_EQ(doubt_about_organ("liver", sides), doubt);
-  }
-  for (const double radius : {1e-4, 0.005, 0.05})
-    EXPECT_EQ(doubt_about_radius("tool 'hook'", radius), "");
-  EXPECT_EQ(doubt_about_radius("tool 'hook'", 5.0),
-            "tool 'hook' has a radius of 5 m" + of_radii + large);
-  EXPECT_EQ(doubt_about_radius("tool 'hook'", 5e-6),
-            "tool 'hook' has a radius of 5e-06 m" + of_radii + small);
-  EXPECT_EQ(doubt_about_distance("hook", "liver", 0.0), "");
-  EXPECT_EQ(doubt_about_distance("hook", "liver", 9.0), "");
-  EXPECT_EQ(doubt_about_distance("hook", "liver", 100.0),
-            "tool 'hook' is 100 m away from organ 'liver'; plausible are 0 to 10 m. Lengths are in "
-            "metres: are these millimetres?");
-  EXPECT_EQ(doubt_about_link("hook", "jaw", 0.02), "");
-  EXPECT_EQ(doubt_about_link("hook", "jaw", 20.0),
-            "link 'jaw' of tool 'hook' is 20 m long; plausible are 0.0002 to 3" + lengths + large);
 }
 
 }  // namespace

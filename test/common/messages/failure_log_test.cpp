@@ -52,22 +52,6 @@ class FailureLogTest : public testing::Test {
   FailureLog::Entries entries_;
 };
 
-TEST_F(FailureLogTest, CountsByReasonAndLogsEachOnceASecond) {
-  log_.add("wrong size", "7 numbers", start_);
-  log_.add("wrong size", "8 numbers", start_ + 999ms);
-  log_.add("not finite", "vertex 3", start_);
-  EXPECT_EQ(entry().count, 2u);
-  EXPECT_EQ(entry().latest, "8 numbers");
-  EXPECT_EQ(entry().not_yet_reported, 2u);
-  EXPECT_EQ(entry().logged, start_);
-  EXPECT_EQ(log_.by_reason().size(), 2u);
-  log_.add("wrong size", "9 numbers", start_ + 1000ms);
-  EXPECT_EQ(entry().logged, start_ + 1000ms);
-  log_.add("wrong size", "a\n" + std::string(10'000'000, 'x'), {});
-  EXPECT_LE(entry().latest.size(), kLongestMessage);
-  EXPECT_EQ(entry().latest.rfind("a xxx", 0), 0u) << entry().latest;
-}
-
 TEST_F(FailureLogTest, CountsAndReportsEachFailureOnceFromAllThreads) {
   constexpr std::uint64_t kEach = 2000;
   std::vector<std::thread> threads;

@@ -39,25 +39,6 @@ TEST(PlainText, ControlCharactersAndBytesThatAreNoUtf8AreReplaced) {
   for (const auto& [text, plain] : rows) EXPECT_EQ(plain_text(text, kMost), plain);
 }
 
-TEST(PlainText, WhateverComesIsPlainAfterwards) {
-  std::mt19937 random(18);
-  std::uniform_int_distribution<int> byte(0, 255), size(0, 300);
-  for (int i = 0; i < 5000; ++i) {
-    std::string text(static_cast<std::size_t>(size(random)), ' ');
-    for (char& c : text) c = static_cast<char>(byte(random));
-    const std::string plain = plain_text(text, kMost);
-    EXPECT_LE(plain.size(), kMost);
-    EXPECT_EQ(plain_text(plain, kMost), plain);
-  }
-}
-
-TEST(Text, CountedAndListed) {
-  EXPECT_EQ(counted(0, "face"), "0 faces");
-  EXPECT_EQ(counted(1, "face"), "1 face");
-  EXPECT_EQ(listed({}), "");
-  EXPECT_EQ(listed({"a", "b", "c"}), "a, b, c");
-}
-
 TEST(Text, DurationsHaveThreeDigitsOrAllBeforeThePoint) {
   EXPECT_EQ(duration_text(0.0), "0 ms");
   EXPECT_EQ(duration_text(0.0073), "7.3 ms");

@@ -1,7 +1,6 @@
 #include "common/threads/queues.hpp"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <future>
@@ -10,22 +9,6 @@
 
 namespace organ_collision {
 namespace {
-
-int niceness() { return getpriority(PRIO_PROCESS, 0); }
-
-TEST(RunInThreadOf, ActionsRunInTheOtherThreadAndAreWaitedFor) {
-  QueueThread other;
-  std::thread::id first;
-  run_in_thread_of(other.queue(), [&] { first = std::this_thread::get_id(); });
-  EXPECT_NE(first, std::this_thread::get_id());
-  for (int i = 0; i < 100; ++i) {
-    std::thread::id ran_in;
-    run_in_thread_of(other.queue(), [&] { ran_in = std::this_thread::get_id(); });
-    EXPECT_EQ(ran_in, first);
-  }
-  EXPECT_THROW(run_in_thread_of(other.queue(), [] { throw std::domain_error("no"); }),
-               std::domain_error);
-}
 
 TEST(RunInThreadOf, AQueueThatIsDisabledOrClearedEndsTheWait) {
   ros::CallbackQueue queue;
@@ -38,20 +21,6 @@ TEST(RunInThreadOf, AQueueThatIsDisabledOrClearedEndsTheWait) {
   waiting.join();
   EXPECT_FALSE(has_run);
   EXPECT_THROW(run_in_thread_of(queue, [] {}), std::runtime_error);
-}
-
-TEST(QueueThread, YieldsToTheThreadThatStartsIt) {
-  const int before = niceness();
-  const int nicer = std::min(before + 8, 18);
-  std::thread([&] {  // Its niceness ends with it.
-    setpriority(PRIO_PROCESS, 0, nicer);
-    QueueThread thread;
-    int background = 0;
-    run_in_thread_of(thread.queue(), [&] { background = niceness(); });
-    EXPECT_EQ(background, std::min(nicer + 10, 19));
-  })
-      .join();
-  EXPECT_EQ(niceness(), before);
 }
 
 TEST(QueueThread, EndsWithItsPresentCallback) {

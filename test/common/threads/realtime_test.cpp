@@ -83,18 +83,6 @@ TEST(Scheduling, TheCallingThreadAloneLowersItsPriority) {
 // A sanitizer reserves terabytes.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
-/// A peer makes roscpp reserve a gigabyte with four bytes.
-TEST(MemoryLock, WhatIsReservedAndNotUsedTakesNoMemory) {
-  expect_in_process([] {
-    constexpr std::size_t kMuch = 500'000'000;  // [bytes]
-    said({0, true});
-    const long before = resident_memory();
-    volatile char* const reserved = new char[kMuch];
-    reserved[kMuch / 2] = 'x';
-    return resident_memory() - before < static_cast<long>(kMuch / 10);
-  });
-}
-
 #endif
 
 TEST(MemoryLock, ALimitIsARefusal) {

@@ -72,41 +72,6 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Combine(testing::Range<std::size_t>(0, oracle::link_trial_kinds().size()),
                      testing::Values(kBox)));
 
-// This is what the box is for: it excludes nearly all faces that are far away.
-TEST(SweptBox, StaysClearOfNearlyAllThatIsFar) {
-  Random random(7);
-  int far = 0, clear = 0;
-  for (int i = 0; i < 3000; ++i) {
-    LinkTrial trial = oracle::make_link_trial(0, kBox, random);
-    trial.end.linear() = trial.start.linear() * oracle::random_turn(0.01, random);
-    trial.end.translation() = trial.start.translation() + 1e-3 * random.direction();
-    for (Vector3d& corner : trial.face) corner += 0.03 * random.direction();
-    const RigidMotion motion = trial.motion();
-    if (first_touch(CoreMotion(trial.core, motion), {trial.face, trial.face}, 0.01)) continue;
-    ++far;
-    const FaceMotion face{trial.face, trial.face};
-    clear += SweptBox(box_of(trial.core), motion, 1e-3).clear_until(LegFace(face)) > 1.0;
-  }
-  EXPECT_GT(clear, far * 8 / 10) << "of " << far;
-}
-
-// The projections onto the box's axes overlap. Only the face's own plane separates the two.
-TEST(SweptBox, StaysClearOfAFaceOverACorner) {
-  const OrientedBox box{Vector3d::Zero(), Eigen::Matrix3d::Identity(), {0.1, 0.1, 0.1}};
-  const Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  const SweptBox swept(box, RigidMotion(pose, pose), 0.01);
-  const auto clear_until = [&](double x, double closer) {
-    const Triangle corners = {Vector3d(x, 0, 0), Vector3d(0, x, 0), Vector3d(0, 0, x)};
-    const FaceMotion face{corners, {corners[0], corners[2], corners[1]}};
-    return swept.clear_until(LegFace(face), closer);
-  };
-  for (const double closer : {0.0, 0.004}) {
-    const double touching = 0.3 + (0.01 - closer) * std::sqrt(3.0);
-    EXPECT_GT(clear_until(touching + 1e-9, closer), 1.0);
-    EXPECT_EQ(clear_until(touching - 1e-9, closer), 0.0);
-  }
-}
-
 /// A surface in the sender's order or in random order, in two shapes, and a box beside it.
 struct SearchScene {
   explicit SearchScene(Random& random) {

@@ -250,30 +250,6 @@ TEST_P(MovingCores, WithoutBudgetNoTouchIsMissed) {
   EXPECT_GT(unresolved, 0);
 }
 
-TEST_P(MovingCores, ComeNearestOnlyWithinTheBound) {
-  for_each_trial(100, [](const LinkTrial& trial, Random& random) {
-    const FaceMotion face = oracle::motion_to(trial.face, random);
-    const RigidMotion motion = trial.motion();
-    const CoreMotion core(trial.core, motion);
-    const double slack = 1.1 * tolerance::kApproach + 1000.0 * oracle::rounding(trial);
-    WorkBudget unlimited = WorkBudget::unlimited();
-    constexpr double kAny = std::numeric_limits<double>::infinity();
-    const double least = closest_approach(core, face, kAny, unlimited)->closest.distance;
-    const double bound = least * random.uniform(0.5, 1.5);
-    const auto found = closest_approach(core, face, bound, unlimited);
-    if (bound > least + 2.0 * slack) {
-      ASSERT_TRUE(found);
-    }
-    if (bound < least - 2.0 * slack) {
-      ASSERT_FALSE(found);
-    }
-    if (!found) return;
-    EXPECT_LE(found->closest.distance, bound);
-    EXPECT_NEAR(found->closest.distance, least, slack);
-    EXPECT_NEAR(found->closest.distance, distance_at(trial, face, found->time), slack);
-  });
-}
-
 // Planes that keep core and face apart: one at rest during the whole leg, and one that turns from
 // one instant to another.
 TEST_P(SeparatedCores, StayBeyondThePlanes) {
@@ -309,27 +285,6 @@ INSTANTIATE_TEST_SUITE_P(Kinds, MovingCores, oracle::LinkTrials::all());
 INSTANTIATE_TEST_SUITE_P(Kinds, SeparatedCores,
                          testing::Combine(testing::Values(0),
                                           testing::Range<std::size_t>(0, oracle::kCoreKinds)));
-
-TEST(ClosestApproach, TakesFewStepsWhereTheDistanceIsNearlyConstant) {
-  // A box turns about an axis at right angles to a face, and a shaft slides along one.
-  const Triangle face = {Vector3d(-0.3, -0.2, 0.0), Vector3d(0.4, -0.1, 0.0),
-                         Vector3d(0.0, 0.5, 0.0)};
-  const LinkPart box = LinkPart::box(Eigen::Isometry3d::Identity(), {0.03, 0.02, 0.01});
-  Eigen::Isometry3d start(Eigen::Translation3d(0.0, 0.0, 0.02));
-  Eigen::Isometry3d end = start * Eigen::AngleAxisd(1.5, Vector3d::UnitZ());
-  const RigidMotion turn(start, end);
-  for (const CoreMotion& core :
-       {CoreMotion(box.core, turn),
-        CoreMotion(ShaftMotion{{{-0.05, 0.0, 0.1}, {-0.05, 0.01, 0.015}},
-                               {{0.05, 0.0, 0.1}, {0.05, 0.01, 0.015}}})}) {
-    WorkBudget budget;
-    const auto found =
-        closest_approach(core, {face, face}, std::numeric_limits<double>::infinity(), budget);
-    ASSERT_TRUE(found);
-    EXPECT_NEAR(found->closest.distance, 0.015, 1e-6);
-    EXPECT_LT(budget.spent(), 100U);
-  }
-}
 
 }  // namespace
 }  // namespace organ_collision

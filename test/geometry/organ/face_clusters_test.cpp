@@ -88,35 +88,6 @@ TEST(FaceClusters, TakeBlocksOfACoherentSurface) {
   }
 }
 
-TEST(FaceClusters, ReorderAShuffledSurfaceIntoCompactBlocks) {
-  const GridSurface grid = shuffled(grid_surface(101), 5);
-  const FaceClusters clusters(grid.faces, grid.vertices);
-  const std::size_t vertex_count = grid.vertices.size() / 3;
-  expect_covering(clusters, grid.faces, vertex_count);
-  EXPECT_EQ(clusters.piece_size(), 1U);
-  EXPECT_EQ(blocks_by_pieces(clusters, vertex_count), blocks_of_vertices(clusters, vertex_count));
-  EXPECT_LT(blocks_of_all_clusters(clusters), 5 * clusters.block_count());
-}
-
-// A square patch of n points of a grid is as compact as a group can be.
-TEST(FaceClusters, HaveCompactGroups) {
-  constexpr int kSide = 127;
-  const GridSurface grid = shuffled(grid_surface(kSide), 7);
-  const FaceClusters clusters(grid.faces, grid.vertices);
-  double diagonals = 0.0;
-  for (std::size_t block = 0; block < clusters.block_count(); block += 2) {
-    Eigen::AlignedBox3f box;
-    for (std::size_t i = 0; i < 2 * FaceClusters::kBlock; ++i) {
-      const std::uint32_t vertex = clusters.vertices(block)[i];
-      box.extend(Eigen::Map<const Eigen::Vector3f>(&grid.vertices[3 * vertex]));
-    }
-    diagonals += box.diagonal().norm();
-  }
-  // The sheet is wavy, so that the sides of its patches are longer than those of their boxes.
-  const double square = std::sqrt(2.0) * 0.2 * (4 - 1) / kSide;
-  EXPECT_LT(diagonals / (0.5 * static_cast<double>(clusters.block_count())), 1.25 * square);
-}
-
 TEST(FaceClusters, TakeSoupsFansAndVerticesWithoutFaces) {
   std::vector<float> vertices(3 * 300, 0.25F);
   std::vector<FaceIndices> fan;

@@ -115,21 +115,6 @@ TEST(SurfaceTopology, WeldingFollowsTheDefinition) {
   }
 }
 
-/// Two bodies that happen to touch in a corner may part again.
-TEST(SurfaceTopology, WhatIsClosedByItsIndicesIsNotWelded) {
-  Random random(12);
-  GridSurface two = tetrahedron(random);
-  const std::vector<FaceIndices> first = two.faces;
-  two.vertices.insert(two.vertices.end(), two.vertices.begin(), two.vertices.begin() + 12);
-  for (std::size_t i = 15; i < two.vertices.size(); ++i) two.vertices[i] += 1.0F;
-  for (const FaceIndices& face : first)
-    two.faces.push_back({face[0] + 4, face[1] + 4, face[2] + 4});
-  const SurfaceTopology topology = topology_of(two);
-  EXPECT_TRUE(topology.is_closed());
-  EXPECT_TRUE(topology.seams()->empty());
-  EXPECT_EQ(topology.welded()[4], 4U) << "its place is that of vertex 0";
-}
-
 TEST(SurfaceTopology, SeamsAreTheVerticesThatAreWeldedToOthers) {
   const GridSurface soup = shuffled(unwelded(torus(5, 7, 0.1, 0.2)), 8);
   const SurfaceTopology topology = topology_of(soup);
@@ -162,26 +147,6 @@ TEST(SurfaceTopology, ClosedSurfacesInAnyOrderAndAnyVertices) {
       EXPECT_NEAR(volume_of(turned_over(same)), -volume, 1e-12);
     }
   }
-}
-
-TEST(SurfaceTopology, RandomSoupsOnFewPlaces) {
-  Random random(23);
-  int closed = 0;
-  for (int trial = 0; trial < 3000; ++trial) {
-    GridSurface soup;
-    for (int i = 0; i < 6; ++i) {
-      const auto bit = [&] { return static_cast<float>(random() % 2); };
-      add_vertex(soup, {bit(), bit(), 0.0F});
-    }
-    for (int i = trial % 5; i >= 0; --i) {
-      const auto draw = [&] { return static_cast<std::uint32_t>(random() % 6); };
-      soup.faces.push_back({draw(), draw(), draw()});
-    }
-    expect_as_defined(soup, "soup");
-    if (topology_of(soup).is_closed()) ++closed;
-  }
-  EXPECT_GT(closed, 300) << "too few closed ones to show anything";
-  EXPECT_LT(closed, 2700) << "too few open ones to show anything";
 }
 
 /// Two vertices that were at one place in the mesh message count as one, wherever they are later.
@@ -223,18 +188,6 @@ TEST(SeamCheck, FollowsTheShapeAndTheTopology) {
     const SurfaceTopology later(soup.faces, mesh.vertices());
     EXPECT_TRUE(check.seams_hold(later, mesh));
     EXPECT_EQ(check.seams_hold(topology, mesh), holds);
-  }
-}
-
-/// What ended may leave its address to something else.
-TEST(SeamCheck, AddressesThatAreUsedAgainAreNotMistaken) {
-  const GridSurface soup = unwelded(sphere(4, 5, 0.01));
-  SeamCheck check;
-  for (int trial = 0; trial < 50; ++trial) {
-    const auto topology = std::make_unique<SurfaceTopology>(soup.faces, soup.vertices);
-    const bool holds = trial % 3 != 0;
-    const TriangleMesh mesh = with_gap(soup, *topology, holds ? 0.0 : 1e-3);
-    EXPECT_EQ(check.seams_hold(*topology, mesh), holds) << "trial " << trial;
   }
 }
 

@@ -29,17 +29,6 @@ void expect_refused(Reason reason, const std::vector<std::string>& words, Action
   }
 }
 
-TEST(TriangleMesh, GivesBackWhatItWasMadeOf) {
-  const TriangleMesh mesh(kCorners, kTetrahedron, 7);
-  EXPECT_EQ(mesh.face_count(), 4U);
-  EXPECT_EQ(mesh.vertex_count(), 4U);
-  EXPECT_EQ(mesh.topology(), 7U);
-  EXPECT_EQ(mesh.faces()[2], (FaceIndices{1, 2, 3}));
-  EXPECT_EQ(mesh.triangle(2)[1], Eigen::Vector3d(0.2F, 1.7F, 0.1F));
-  EXPECT_EQ(mesh.box().min(), Eigen::Vector3f(0.1F, 0.1F, 0.1F));
-  EXPECT_EQ(mesh.box().max(), Eigen::Vector3f(1.4F, 1.7F, 1.1F));
-}
-
 TEST(TriangleMesh, RefusesWhatIsNoMeshAndNamesTheValue) {
   const auto changed = [](std::uint32_t index) {
     std::vector<std::uint32_t> triangles = kTetrahedron;
@@ -69,22 +58,6 @@ TEST(TriangleMesh, RefusesWhatIsNoMeshAndNamesTheValue) {
   }
 }
 
-TEST(TriangleMesh, RefusesEveryCoordinateThatIsNotFinite) {
-  TriangleMesh mesh(kCorners, kTetrahedron);
-  for (const float bad :
-       {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
-        -std::numeric_limits<float>::infinity()}) {
-    for (std::size_t i = 0; i < kCorners.size(); ++i) {
-      std::vector<float> vertices = kCorners;
-      vertices[i] = bad;
-      const std::string place =
-          std::string(1, "xyz"[i % 3]) + " of vertex " + std::to_string(i / 3);
-      expect_refused(Reason::kNotFinite, {place}, [&] { TriangleMesh(vertices, kTetrahedron); });
-      expect_refused(Reason::kNotFinite, {place}, [&] { mesh.move_vertices(vertices); });
-    }
-  }
-}
-
 TEST(TriangleMesh, TakesDegenerateFacesAndTheFarthestVertices) {
   const TriangleMesh mesh({0, 0, 0, 1e6F, -1e6F, 1}, {0, 0, 1, 1, 1, 1});
   EXPECT_EQ(mesh.face_count(), 2U);
@@ -111,23 +84,6 @@ TEST(TriangleMesh, KeepsItsShapeWhenNewVerticesAreRefused) {
   expect_refused(Reason::kSize, {"9", "12"}, [&] { mesh.move_vertices(bad); });
   EXPECT_EQ(mesh.vertices(), kCorners);
   EXPECT_EQ(mesh.box().max().x(), 1.4F);
-}
-
-TEST(TriangleMesh, CopiesMoveOnTheirOwn) {
-  const TriangleMesh mesh(kCorners, kTetrahedron);
-  TriangleMesh copy = mesh;
-  std::vector<float> moved = kCorners;
-  moved[0] = 0.9F;
-  copy.move_vertices(moved);
-  EXPECT_EQ(&copy.faces(), &mesh.faces());
-  EXPECT_EQ(mesh.vertices(), kCorners);
-  EXPECT_TRUE(copy.same_faces(mesh));
-  EXPECT_TRUE(mesh.same_faces(TriangleMesh(kCorners, kTetrahedron, 9)));
-  EXPECT_FALSE(mesh.same_faces(TriangleMesh(kCorners, {0, 1, 2})));
-  std::vector<float> one_more = kCorners;
-  one_more.insert(one_more.end(), {1.0F, 2.0F, 3.0F});
-  EXPECT_FALSE(mesh.same_faces(TriangleMesh(one_more, kTetrahedron)));
-  EXPECT_FALSE(TriangleMesh(one_more, kTetrahedron).same_faces(mesh));
 }
 
 TEST(TriangleMesh, KnowsWhetherTrianglesAreItsOwn) {

@@ -73,29 +73,6 @@ TEST(TripleProductSign, IsExactWhereDoublesAreNot) {
   EXPECT_GT(wrong_in_doubles, 500) << "the exact arithmetic was not needed";
 }
 
-/// The determinant of coordinates from the largest to the smallest ones. Its products underflow.
-TEST(TripleProductSign, AllMagnitudes) {
-  Random random(33);
-  int positive = 0, zero = 0;
-  for (int trial = 0; trial < 4000; ++trial) {
-    Points points;
-    for (Vector3d& point : points) {
-      for (double& coordinate : point) {
-        coordinate = std::ldexp(random.uniform(-1, 1), random.integer(-1074, 19));
-        if (random.chance(0.2)) coordinate = 0.0;
-      }
-    }
-    if (random.chance(0.5)) points[4] = points[0];
-    if (random.chance(0.5)) points[5] = points[3];
-    const int expected = oracle::exact_triple_sign(points);
-    ASSERT_EQ(sign_of(points), expected) << "trial " << trial;
-    positive += expected > 0;
-    zero += expected == 0;
-  }
-  EXPECT_GT(positive, 1000);
-  EXPECT_LT(zero, 1000);
-}
-
 /// A face and an axis near it. Most are in special position.
 struct SideTrial {
   Triangle face;

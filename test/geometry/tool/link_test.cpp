@@ -71,21 +71,6 @@ TEST(LinkPart, HasItsShapeAtItsPose) {
   }
 }
 
-// is_cylinder() must not depend on which components of the rim are zero.
-TEST(ConvexCore, OfACylinderIsOneInEveryOrientation) {
-  Random random(3);
-  for (int i = 0; i < 24; ++i) {
-    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-    for (int turns = 0; turns < i; ++turns) {
-      pose.rotate(Eigen::AngleAxisd(M_PI / 2, Vector3d(Vector3d::Unit(random.integer(0, 2)))));
-    }
-    for (double& element : pose.linear().reshaped()) element = std::round(element);
-    const ConvexCore core = LinkPart::cylinder(pose, 0.01, 0.05).core;
-    EXPECT_TRUE(core.is_cylinder());
-    EXPECT_FALSE(core.is_axis());
-  }
-}
-
 class ConvexCoreOf : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(ConvexCoreOf, SupportIsItsFarthestPoint) {

@@ -103,30 +103,6 @@ ToolMesh flat_mesh(int side) {
   return mesh;
 }
 
-// Every triangle comes within the convex margin of every face at the same time, and none pierces
-// it: the tree of boxes, which are loose because the tool turns, rules out none of the million
-// pairs.
-TEST(SurfaceTouch, DescendsNoFurtherOnceTheBudgetIsUsedUp) {
-  const auto face_at = [](double height) {
-    return Triangle{Vector3d(-0.2, -0.2, height), Vector3d(0.6, -0.2, height),
-                    Vector3d(-0.2, 0.6, height)};
-  };
-  const Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  Eigen::Isometry3d turned = pose;
-  turned.rotate(Eigen::AngleAxisd(0.01, Vector3d::UnitZ()));
-  std::vector<FaceTouch> faces(200, {0, {face_at(1e-3), face_at(5e-9)}, {}});
-  WorkBudget budget;
-  SurfaceTouches().find(flat_mesh(50).surface(), RigidMotion(pose, turned),
-                        tolerance::kConvexMargin, budget, faces);
-  EXPECT_TRUE(budget.is_used_up());
-  budget.add_pairs(WorkBudget::kLeastPairs + 10'000);
-  EXPECT_FALSE(budget.is_used_up()) << "a tenth of the budget did not suffice to end the search";
-  for (const FaceTouch& face : faces) {
-    ASSERT_TRUE(face.first);
-    EXPECT_FALSE(face.first->is_resolved);
-  }
-}
-
 /// The depth of a tree below a node. Counts the leaves.
 int depth(const ToolSurface& surface, std::uint32_t index, std::size_t& leaves) {
   const ToolSurface::Node& node = surface.nodes()[index];
@@ -135,22 +111,6 @@ int depth(const ToolSurface& surface, std::uint32_t index, std::size_t& leaves) 
     return 1;
   }
   return 1 + std::max(depth(surface, index + 1, leaves), depth(surface, node.second, leaves));
-}
-
-TEST(ToolSurface, IsABalancedTreeEvenOfFacesThatAreAllTheSame) {
-  Random random(1);
-  ToolMesh same;
-  same.vertices = {{0.1, 0.2, 0.3}, {0.2, 0.1, 0.3}, {0.3, 0.1, 0.1}};
-  same.faces.assign(1000, {0, 1, 2});
-  ToolMesh points = same;
-  points.faces.assign(1000, {1, 1, 1});
-  for (const ToolMesh& mesh : {same, points, scattered_mesh(200, random), wavy_mesh(16, 0.3)}) {
-    const ToolSurface surface = mesh.surface();
-    EXPECT_EQ(surface.faces().size(), mesh.faces.size());
-    std::size_t leaves = 0;
-    EXPECT_LE(depth(surface, 0, leaves), 2.0 + std::log2(static_cast<double>(mesh.faces.size())));
-    EXPECT_EQ(surface.nodes().size(), 2 * leaves - 1) << "every node is a child of one";
-  }
 }
 
 TEST(ToolSurface, ProjectsOntoADirectionAsItsVertices) {

@@ -109,13 +109,6 @@ TEST_F(MotionTopicsTest, PosesPlaceTheTip) {
   EXPECT_EQ(rejected(), 0u);
 }
 
-TEST_F(MotionTopicsTest, PosesWithoutAStampDoNotCollide) {
-  for (int i = 0; i < 1000; ++i) topics_.take_tip(0, pose_of("base", 0.0, {0.001 * i, 0.0, 0.0}));
-  EXPECT_EQ(arrived_.size(), 1000u);
-  EXPECT_EQ(rejected(), 0u);
-  EXPECT_TRUE(tip("base", 0.0).isApprox(Vector3d(0.999, 0.0, 0.0)));
-}
-
 TEST_F(MotionTopicsTest, TheBaseMayComeFirstOrLastAndRests) {
   topics_.take_base(0, pose_of("world", 1.0, {10.0, 0.0, 0.0}));
   topics_.take_tip(0, pose_of("base", 50.0, {0.1, 0.2, 0.3}));
@@ -143,22 +136,6 @@ TEST_F(MotionTopicsTest, BadPosesAreRejectedAndTheLastOneStays) {
   expect_rejected(turned, "quaternion");
   EXPECT_TRUE(tip("base", 0.0).isApprox(Vector3d(0.1, 0.2, 0.3)));
   EXPECT_EQ(arrived_.size(), 1u);
-}
-
-TEST_F(MotionTopicsTest, PosesNearTheEndOfTimeAreRejected) {
-  ros::Time::setNow(ros::Time(4294967295.0));
-  for (const double stamp : {0.0, 4294967001.0, 4294967295.0}) {
-    expect_rejected(pose_of("base", stamp, {0.0, 0.0, 1.0}), "beyond what TF can take");
-  }
-}
-
-TEST_F(MotionTopicsTest, ABaseThatWasRejectedIsNotTriedAgain) {
-  topics_.take_base(0, pose_of("world", 1.0, {std::nan(""), 0.0, 0.0}));
-  topics_.take_tip(0, pose_of("base", 1.0, {0.1, 0.2, 0.3}));
-  topics_.take_tip(0, pose_of("other_base", 1.1, {0.1, 0.2, 0.3}));
-  EXPECT_EQ(rejected(), 1u);
-  topics_.take_base(0, pose_of("other_base", 1.0, {0.0, 0.0, 0.0}));
-  EXPECT_EQ(rejected(), 2u);
 }
 
 TEST_F(MotionTopicsTest, ToolsMayShareATipAndItsPoses) {

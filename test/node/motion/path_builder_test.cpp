@@ -88,54 +88,6 @@ TEST(PathBuilder, AChainOfJointsIsFollowedToAMicrometre) {
   }
 }
 
-TEST(PathBuilder, TheFarthestPointOfAnyLinkCounts) {
-  const auto turn = [](double time) {
-    return pose({0.0, 0.0, 0.0}, std::sin(3.0 * time), {0.3, -1.0, 0.2});
-  };
-  const auto legs = [&](const LinkPart& part) {
-    return path_of({{"jaw", {part}}}, 200, 0.2, turn).size();
-  };
-  const std::size_t near = legs(LinkPart::sphere({0.0, 0.0, 0.0}, 0.01));
-  const Isometry3d aside = pose({0.1, -0.2, 0.2}, 0.7, {1.0, 1.0, -0.3});
-  for (const LinkPart& far :
-       {LinkPart::sphere({0.0, 0.3, 0.0}, 0.01), LinkPart::sphere({0.0, 0.0, 0.0}, 0.3),
-        LinkPart::box(aside, {0.01, 0.02, 0.2})}) {
-    EXPECT_LT(near, legs(far));
-  }
-  const std::vector<Link> links = {one_ball()[0], one_ball()[0]};
-  PathBuilder path(links, {kNowhere, {aside, on_an_arm(0.0)}});
-  for (const double time : {0.5, 1.0}) path.add(time, {kNowhere, {aside, on_an_arm(time)}});
-  EXPECT_EQ(path.take(kAll).path.size(), 3u);
-}
-
-TEST(PathBuilder, AShaftIsFollowedMoreCloselyThanLinks) {
-  // 10 nm from the straight motion.
-  const Isometry3d still = on_an_arm(0.0);
-  const auto waypoints = [&](double axis_bend, double link_bend) {
-    const ShaftAxis bent{Vector3d(0.0, axis_bend, 0.0), Vector3d(0.0, axis_bend, 0.3)};
-    const ShaftAxis straight{Vector3d(0.0, 0.0, 0.0), Vector3d(0.0, 0.0, 0.3)};
-    PathBuilder path(one_ball(), {straight, {still}});
-    path.add(0.3, {bent, {Eigen::Translation3d(0.0, link_bend, 0.0) * still}});
-    path.add(1.0, {straight, {still}});
-    return path.take(kAll).path.size();
-  };
-  EXPECT_EQ(waypoints(0.0, 0.0), 2u);
-  EXPECT_EQ(waypoints(0.0, 1e-8), 2u);
-  EXPECT_EQ(waypoints(1e-8, 0.0), 3u);
-  EXPECT_EQ(waypoints(0.0, 2e-6), 3u);
-}
-
-TEST(PathBuilder, ATrocarThatMovesByRoundingRests) {
-  const ShaftAxis from{Vector3d(0.1, 0.2, 0.3), Vector3d(0.1, 0.2, 0.0)};
-  const ShaftAxis to{Vector3d(0.1, 0.2 + 1e-12, 0.3), Vector3d(0.2, 0.2, 0.0)};
-  PathBuilder path({}, {from});
-  path.add(1.0, {to});
-  const ToolPath taken = path.take(kAll).path;
-  ASSERT_EQ(taken.size(), 2u);
-  EXPECT_EQ(taken[0].axis.trocar, to.trocar);
-  EXPECT_EQ(taken[0].axis.tip, from.tip);
-}
-
 namespace {
 
 const Vector3d kTrocar(0.1, 0.2, 0.5);

@@ -184,20 +184,6 @@ TEST_F(ToolPosesTest, WhatIsMissingIsNamed) {
   EXPECT_EQ(why_not(silent, 1.0), "no pose came on /arm/measured_cp");
 }
 
-TEST_F(ToolPosesTest, PosesThatComeTooSeldomAreNamed) {
-  Tool streamed = shaft_tool("hook", 0.005);
-  streamed.parameters.tip_pose_topic = "/arm/measured_cp";
-  const std::string behind = "TF from 'hook_tip' to 'liver' is 7 ms behind the stamp 1.007000000",
-                    remedy = "see 'Send poses also while nothing moves' in doc/tools.md";
-  send_shaft(1.0);
-  send_trocar(1.1);
-  EXPECT_EQ(why_not(streamed, 1.007),
-            behind + ": poses on /arm/measured_cp come seldom; " + remedy);
-  send_tip(1.3);
-  EXPECT_EQ(why_not(streamed, 1.107),
-            "TF from 'hook_trocar' to 'liver' is 7 ms behind the stamp 1.107000000");
-}
-
 TEST_F(ToolPosesTest, EveryPoseThatTfWasToldIsAWaypoint) {
   const double times[] = {1.0, 1.013, 1.0134, 1.02, 1.071, 1.1};
   for (const double time : times) send_shaft(time);
@@ -235,16 +221,6 @@ TEST_F(ToolPosesTest, OfTooManyPosesThoseThatMatterMostStay) {
             "is 300 mm from the tested path");
 }
 
-TEST_F(ToolPosesTest, OfVeryManyPosesThoseReadAreSpreadEvenly) {
-  for (int i = 0; i <= 3000; ++i) send_shaft(1.0 + 0.001 * i);
-  const SampledPath sampled = path(hook_, 1.0, 4.0, {1.0, 4});
-  ASSERT_EQ(sampled.path.size(), 5u);
-  EXPECT_EQ(sampled.samples_cut, 2999u - 3u);
-  for (int leg = 1; leg <= 4; ++leg) {
-    EXPECT_LT(sampled.path[leg].fraction - sampled.path[leg - 1].fraction, 0.5);
-  }
-}
-
 TEST_F(ToolPosesTest, ASampleOutOfAllBoundsIsLeftOut) {
   for (const double time : {1.0, 1.25, 1.75, 2.0}) {
     send_shaft(time);
@@ -265,13 +241,5 @@ TEST_F(ToolPosesTest, ASampleOutOfAllBoundsIsLeftOut) {
     ASSERT_NE(after, sampled.path.end());
     EXPECT_DOUBLE_EQ((after - 1)->fraction, 0.25);
     EXPECT_DOUBLE_EQ(after->fraction, 0.75);
-  }
-}
-
-TEST_F(ToolPosesTest, PathWithinOneSampleIsStraight) {
-  for (int i = 0; i <= 10; ++i) send_shaft(1.0 + 0.001 * i);
-  for (const auto& [from, to, size] : {std::tuple(1.0, 1.001, 2u), std::tuple(1.0, 1.0, 2u),
-                                       std::tuple(1.01, 1.0, 2u), std::tuple(1.0, 1.0015, 3u)}) {
-    EXPECT_EQ(path(hook_, from, to, {0.001, 100}).path.size(), size) << from << ' ' << to;
   }
 }

@@ -105,15 +105,6 @@ TEST(DeformableOrgan, NewTrianglesHaveASurfaceOfTheirOwnAndNoPreviousShape) {
   EXPECT_EQ(liver.latest().topology()->welded().size(), 4U);
 }
 
-TEST(DeformableOrgan, AgeIsSinceTheArrivalWhateverTheStamp) {
-  for (const ros::Time stamp :
-       {ros::Time(3), ros::Time(), ros::Time(4.5), ros::Time(4294967295u, 0)}) {
-    EXPECT_EQ((OrganShape{nullptr, stamp, ros::Time(4)}.age(ros::Time(10))), 6.0);
-  }
-  EXPECT_EQ((OrganShape{nullptr, ros::Time(8), {}}.age(ros::Time(10))), 2.0)
-      << "it came before the first /clock";
-}
-
 TEST(OrganReport, SaysWhatCame) {
   const Kidney outward, inward(kInward), open({0, 1, 2});
   EXPECT_EQ(summary("kidney", outward), kWhatCame);
@@ -132,41 +123,6 @@ TEST(OrganReport, SaysWhatCame) {
   EXPECT_EQ(closedness(unknown), "not yet known");
   EXPECT_EQ(orientation(unknown), "not yet known");
   EXPECT_TRUE(doubts("kidney", unknown.box(), unknown).empty());
-}
-
-TEST(OrganReport, DoubtsWhatIsProbablyAMistake) {
-  const auto doubts_of = [](const std::vector<std::uint32_t>& triangles, float unit) {
-    const Kidney kidney(triangles, unit);
-    return doubts("kidney", kidney.box(), kidney);
-  };
-  EXPECT_TRUE(doubts_of(kOutward, 1.0F).empty());
-  EXPECT_TRUE(doubts_of({0, 1, 2}, 1.0F).empty()) << "an open surface is no mistake";
-  const Texts large = doubts_of(kOutward, 1000.0F), small = doubts_of(kInward, 1e-3F);
-  ASSERT_TRUE(large.size() == 1 && small.size() == 2);
-  EXPECT_NE(large[0].find("are these millimetres?"), std::string::npos) << large[0];
-  EXPECT_NE(small[0].find("twice"), std::string::npos) << small[0];
-  EXPECT_NE(small[1].find("organ 'kidney' point inward"), std::string::npos) << small[1];
-}
-
-TEST(SurfaceLog, CutsAtEveryStepDoNotFloodTheLog) {
-  CapturedLog captured;
-  SurfaceLog log;
-  SurfaceLog::Time now{std::chrono::hours(1)};
-  const Kidney outward, inward(kInward);
-  const auto logged = [&](const OrganSurface& surface, int later) {
-    log.tell("kidney", surface, now += std::chrono::seconds(later));
-    return captured.take();
-  };
-  const Texts came = {std::string("INFO ") + kWhatCame};
-  EXPECT_EQ(logged(outward, 0), came);
-  for (int i = 0; i < 3; ++i) EXPECT_TRUE(logged(outward, 1).empty());
-  const Texts doubted = logged(inward, 1);  // A doubt is said at once.
-  ASSERT_EQ(doubted.size(), 1U);
-  EXPECT_EQ(doubted[0].find("WARN the faces of organ 'kidney' point inward"), 0U) << doubted[0];
-  EXPECT_EQ(logged(inward, 1), came);
-  EXPECT_EQ(logged(inward, 5).size(), 2U);
-  log.tell("liver", outward, now);
-  EXPECT_EQ(captured.take().size(), 1U) << "another organ";
 }
 
 TEST(OrganInfo, TellsEverythingAboutTheLatestShape) {

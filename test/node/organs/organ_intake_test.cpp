@@ -6,7 +6,6 @@
 
 #include <boost/make_shared.hpp>
 #include <functional>
-#include <future>
 
 #include "test/node/organs/organ_fixture.hpp"
 
@@ -111,32 +110,6 @@ const std::vector<IntakeCase> kIntakeCases = {
        EXPECT_EQ(in.next(), (Texts{"liver mesh 1", "liver vertices 1"}));
        EXPECT_EQ(in.organs.at("liver").latest().mesh->face_count(), kFaces);
      }},
-    {"TheOrderOfEachOrganStays",
-     [](Intake& in) {
-       in.mesh("liver", 1, kFaces);
-       in.mesh("liver", 2);
-       in.vertices("liver", 2);
-       const auto soup = Intake::message("liver", 3, 1);
-       soup->vertices.resize(3 * kFaces);  // Many vertices make a mesh large, too.
-       in.intake.take_mesh(soup);
-       in.mesh("spleen", 4, kFaces);
-       in.build();
-       EXPECT_EQ(in.next(), Texts{"liver mesh 1"});
-       in.build();
-       EXPECT_EQ(in.next(), Texts{"spleen mesh 4"});
-       in.build();
-       EXPECT_EQ(in.next(), Texts{"liver mesh 3"});
-     }},
-    {"AKnownTopologyIsNotBuiltAgainAndTheConnectionIsKnown",
-     [](Intake& in) {
-       const auto header = boost::make_shared<const ros::M_string>();
-       for (int i = 0; i < 2; ++i) in.intake.take_mesh(Intake::message("liver", 1, kFaces), header);
-       in.build();
-       EXPECT_EQ(in.next().size(), 2U);
-       EXPECT_TRUE(in.builder.isEmpty());
-       EXPECT_FALSE(in.organs.is_new(*Intake::message("liver", 1, 1), header));
-       EXPECT_TRUE(in.organs.is_new(*Intake::message("liver", 1, 1), {}));
-     }},
     {"WhatALaterMessageReplacesIsDroppedBehindALargeMesh",
      [](Intake& in) {
        in.mesh("liver", 1, kFaces);
@@ -194,24 +167,6 @@ const std::vector<IntakeCase> kIntakeCases = {
        EXPECT_TRUE(in.rejected.by_reason().empty());
        EXPECT_FALSE(in.remove("liver", "organ 'liver' was removed")) << "it is removed already";
      }},
-    {"ListsTheOrgansInAnotherThread",
-     [](Intake& in) {
-       for (const char* organ : {"spleen", "kidney"}) in.mesh(organ, 1);
-       in.next();
-       ListOrgans::Response list;
-       const auto ask = [&] {
-         ListOrgans::Request request;
-         return in.intake.on_list(request, list);
-       };
-       auto answer = std::async(std::launch::async, ask);
-       in.node.callOne(ros::WallDuration(20.0));
-       EXPECT_TRUE(answer.get());
-       ASSERT_EQ(list.organs.size(), 2U);
-       EXPECT_EQ(list.organs[0].name, "kidney");
-       EXPECT_EQ(list.organs[1].name, "spleen");
-       in.node.disable();  // As when the node ends.
-       EXPECT_FALSE(ask());
-     }},
     {"TheSurfaceOfNewTrianglesIsFoundElsewhereAndLoggedOnceUnlessTheOrganIsGone",
      [](Intake& in) {
        CapturedLog log;
@@ -229,13 +184,6 @@ const std::vector<IntakeCase> kIntakeCases = {
        in.next();
        in.inspector.callAvailable();
        EXPECT_TRUE(log.take().empty());
-     }},
-    {"WithoutThreadsEverythingIsDoneAtOnce",
-     [](Intake& in) {
-       OrganIntake alone(in.organs, in.rejected);
-       alone.take_mesh(Intake::message("liver", 1, kFaces));
-       ASSERT_TRUE(alone.next());
-       EXPECT_TRUE(in.organs.at("liver").surface()->is_found());
      }},
 };
 

@@ -133,21 +133,6 @@ TEST_F(OrganRegistryTest, BadMessagesLeaveTheGoodOrgan) {
                  {"'liver'", "1", "raise `topology`", "reset"});
 }
 
-TEST_F(OrganRegistryTest, MeshesThatCannotBeMadeLeaveTheGoodOne) {
-  apply(mesh(), ros::Time(7));
-  const auto message = boost::make_shared<const OrganMesh>(mesh("liver", 2));
-  try {
-    store_.apply(message, ros::Time(8), {}, []() -> TriangleMesh { throw std::bad_alloc(); });
-    ADD_FAILURE() << "accepted";
-  } catch (const Rejection& rejection) {
-    EXPECT_EQ(rejection.status(), ContactArray::INVALID_REQUEST);
-    EXPECT_EQ(rejection.reason(), "not made");
-    EXPECT_STREQ(rejection.what(), "mesh of organ 'liver' could not be made: std::bad_alloc");
-  }
-  EXPECT_EQ(store_.at("liver").latest().mesh->topology(), 1U);
-  EXPECT_EQ(store_.at("liver").latest().received, ros::Time(7));
-}
-
 TEST_F(OrganRegistryTest, AnOrganWithoutMeshSaysWhyTheLastOneWasRefused) {
   OrganMesh bad = mesh();
   bad.triangles[2] = 4;
@@ -176,53 +161,6 @@ TEST_F(OrganRegistryTest, AnOrganWithoutMeshSaysWhyTheLastOneWasRefused) {
 }
 
 // An organ's meshes may come over several connections.
-
-TEST_F(OrganRegistryTest, OtherTrianglesOverANewConnectionAreAnotherOrgan) {
-  OrganMesh other = mesh(), more = mesh(), bad = mesh();
-  other.triangles = {0, 1, 3};
-  more.vertices.insert(more.vertices.end(), {5, 5, 5});
-  bad.triangles = {0, 1, 4};
-  const std::string same = "same topology, other triangles";
-  const std::uint8_t invalid = ContactArray::INVALID_REQUEST;
-  EXPECT_TRUE(store_.is_new(mesh(), first_));
-  apply(mesh(), ros::Time(7), first_);
-  EXPECT_FALSE(store_.is_new(mesh(), first_));
-  EXPECT_FALSE(store_.is_new(mesh(), second_));
-  EXPECT_FALSE(store_.is_new(other, first_));
-  EXPECT_TRUE(store_.is_new(other, second_));
-  EXPECT_TRUE(store_.is_new(mesh("liver", 2), first_));
-  EXPECT_EQ(apply(vertices(3), ros::Time(8)), OrganChange::kShape);
-  expect_refused(other, invalid, same, {}, first_);
-  expect_refused(more, invalid, "wrong size", {}, first_);
-  expect_refused(bad, invalid, "index out of range", {}, second_);  // It does not become known.
-  EXPECT_EQ(apply(other, ros::Time(9), second_), OrganChange::kOrgan);
-  EXPECT_EQ(store_.at("liver").latest().mesh->face_count(), 1U);
-  EXPECT_FALSE(store_.at("liver").latest().before);
-  // Messages that still arrive over the old connection do not displace the new organ.
-  expect_refused(mesh(), invalid, same, {}, first_);
-  expect_refused(more, invalid, same, {}, second_);
-  const ros::M_stringPtr third = header(), fourth = header();
-  EXPECT_EQ(apply(more, ros::Time(10), third), OrganChange::kOrgan);
-  EXPECT_EQ(apply(more, ros::Time(10.1), fourth), OrganChange::kShape) << "they count as vertices";
-  EXPECT_TRUE(store_.at("liver").latest().before);
-  expect_refused(other, invalid, same, {}, fourth);
-}
-
-TEST_F(OrganRegistryTest, ANewConnectionIsNotTakenForAClosedOneAtItsAddress) {
-  int at_the_same_address = 0;
-  for (std::uint32_t i = 0; i < 100; ++i) {
-    ros::M_stringPtr closed = header();
-    const ros::M_string* address = closed.get();
-    apply(mesh("liver", i), ros::Time(7), closed);
-    closed.reset();
-    const ros::M_stringPtr opened = header();
-    at_the_same_address += opened.get() == address ? 1 : 0;
-    OrganMesh other = mesh("liver", i);
-    other.triangles = {0, 1, 3};
-    EXPECT_TRUE(store_.is_new(other, opened));
-  }
-  EXPECT_GT(at_the_same_address, 0) << "this run of the test has shown nothing";
-}
 
 // A connection that is closed belongs to a sender that is gone.
 
@@ -260,30 +198,6 @@ TEST_F(OrganRegistryTest, AShapeOfARestartedSenderBeginsANewHistory) {
   }
 }
 
-TEST_F(OrganRegistryTest, ARefusedMessageIsNotOfTheOrgansSender) {
-  ros::M_stringPtr connection = header();
-  apply(mesh(), ros::Time(7), connection);
-  connection = header();
-  OrganMesh bad = mesh();
-  bad.vertices.pop_back();
-  expect_refused(bad, ContactArray::INVALID_REQUEST, "wrong size", {}, connection);
-  EXPECT_EQ(apply(mesh(), ros::Time(8), connection), OrganChange::kSender);
-}
-
-TEST_F(OrganRegistryTest, TheFirstMeshOfARemovedOrganHasNoHistoryToEnd) {
-  apply(mesh(), ros::Time(7), header());
-  OrganMesh removal;
-  removal.organ = "liver";
-  apply(removal, ros::Time(8));
-  EXPECT_EQ(apply(mesh(), ros::Time(9), header()), OrganChange::kShape);
-}
-
-TEST_F(OrganRegistryTest, AResetDoesNotHideThatTheSenderRestarts) {
-  apply(mesh(), ros::Time(7), header());
-  store_.begin_histories("reset", ros::Time(8));
-  EXPECT_EQ(apply(mesh(), ros::Time(9), header()), OrganChange::kSender);
-}
-
 /// roscpp keeps its connection until the master forgets it.
 TEST_F(OrganRegistryTest, ASenderThatCrashedIsGoneWhenAnotherOneMovesTheOrgan) {
   const ros::M_stringPtr crashed = header("/left"), next = header("/right"), third = header();
@@ -295,13 +209,6 @@ TEST_F(OrganRegistryTest, ASenderThatCrashedIsGoneWhenAnotherOneMovesTheOrgan) {
   OrganMesh cut = mesh("liver", 2);
   cut.triangles = {0, 1, 2};
   EXPECT_EQ(apply(cut, ros::Time(9.7), third), OrganChange::kShape) << "another node may cut";
-}
-
-TEST_F(OrganRegistryTest, ASenderThatGoesOnWithVerticesIsNotSilent) {
-  const ros::M_stringPtr left = header("/left"), right = header("/right");
-  apply(mesh(), ros::Time(7), left);
-  for (const double now : {7.4, 7.8, 8.2}) apply(vertices(1), ros::Time(now), left);
-  EXPECT_EQ(apply(mesh(), ros::Time(8.3), right), OrganChange::kShape) << "two senders are open";
 }
 
 TEST_F(OrganRegistryTest, TwoOpenSendersAreWarnedOfAndHistoryGoesOn) {

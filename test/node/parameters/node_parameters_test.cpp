@@ -221,21 +221,6 @@ TEST(ToolParameters, WhatDoesNotGoTogetherIsNamed) {
             "to one jaw");
 }
 
-TEST(ToolParameters, TheTipOfATrackedToolIsAPointOfItsMarker) {
-  XmlRpcValue tool = shaft();
-  tool["tip_frame"] = tool["trocar_frame"];
-  tool["tip_offset"] = list_of({0.0, -0.0132, 1});
-  const ToolParameters pointer = parsed(tool);
-  EXPECT_EQ(pointer.tip_frame, pointer.trocar_frame);
-  EXPECT_EQ(pointer.tip_offset, Eigen::Vector3d(0.0, -0.0132, 1.0));
-  EXPECT_EQ(pointer.trocar_offset, Eigen::Vector3d(Eigen::Vector3d::Zero()));
-  EXPECT_FALSE(pointer.is_ball());
-  XmlRpcValue wrist = links();
-  wrist["tip_frame"] = "wrist";
-  wrist["tip_offset"] = list_of({0, 0, 0.5});
-  EXPECT_EQ(parsed(wrist).tip_offset.z(), 0.5);
-}
-
 TEST(ToolParameters, ATipAtTheTrocarMakesABall) {
   XmlRpcValue tool = shaft();
   tool["tip_frame"] = "/hook_trocar";
@@ -248,71 +233,6 @@ TEST(ToolParameters, ATipAtTheTrocarMakesABall) {
   expect_words(tool_refusal(tool), {"freedom", "free for a ball"});
   tool["tip_offset"] = list_of({0, 0, 0.2});
   EXPECT_FALSE(parsed(tool).is_ball());
-}
-
-TEST(ToolParameters, AreAShaftOrLinksOrBoth) {
-  XmlRpcValue tool = shaft();
-  tool["tip_frame"] = "/hook_tip";
-  tool["margin"] = 0.02;
-  tool["max_near"] = 50;
-  const ToolParameters of_shaft = parsed(tool);
-  EXPECT_EQ(of_shaft.name, "hook");
-  EXPECT_EQ(of_shaft.trocar_frame, "hook_trocar");
-  EXPECT_EQ(of_shaft.tip_frame, "hook_tip");
-  EXPECT_EQ(of_shaft.radius, 0.005);
-  EXPECT_EQ(of_shaft.margin, 0.02);
-  EXPECT_EQ(of_shaft.max_near, 50);
-  EXPECT_EQ(of_shaft.freedom, ProxyFreedom::kTrocar);
-  EXPECT_FALSE(of_shaft.has_tip_of_links());
-
-  const ToolParameters of_links = parsed(links());
-  EXPECT_EQ(of_links.links, (std::vector<std::string>{"jaw", "other_jaw"}));
-  EXPECT_EQ(of_links.robot_description, "robot_description");
-  EXPECT_EQ(of_links.link_frame("jaw"), "jaw");
-  EXPECT_EQ(of_links.freedom, ProxyFreedom::kFree);
-  EXPECT_FALSE(of_links.has_shaft());
-  EXPECT_FALSE(of_links.has_tip_of_links());
-
-  tool["links"] = links()["links"];
-  tool["first_jaw"] = list_of({"other_jaw"});
-  tool["second_jaw"] = list_of({"jaw"});
-  EXPECT_EQ(parsed(tool).grasp_gap, 0.002);
-  tool["grasp_gap"] = 4;
-  expect_words(tool_refusal(tool), {"~tools[0]/grasp_gap is '4'", "0.1"});
-  tool["grasp_gap"] = 0.004;
-  tool["urdf"] = "package://hooks/hook.urdf";
-  const ToolParameters both = parsed(tool);
-  EXPECT_TRUE(both.has_shaft());
-  EXPECT_EQ(both.links.size(), 2u);
-  EXPECT_EQ(both.jaws, (std::array<std::vector<std::string>, 2>{{{"other_jaw"}, {"jaw"}}}));
-  EXPECT_EQ(both.grasp_gap, 0.004);
-  EXPECT_EQ(both.urdf, "package://hooks/hook.urdf");
-  EXPECT_EQ(both.robot_description, "");
-}
-
-TEST(ToolParameters, TipsComeFromFramesOrPoses) {
-  XmlRpcValue tool = shaft();
-  tool["tip_pose_topic"] = "/PSM1/measured_cp";
-  tool["base_pose_topic"] = "/PSM1/base";
-  const ToolParameters named = parsed(tool);
-  EXPECT_EQ(named.tip_pose_topic, "/PSM1/measured_cp");
-  EXPECT_EQ(named.base_pose_topic, "/PSM1/base");
-  EXPECT_EQ(named.tip_frame, "hook_tip");
-
-  XmlRpcValue unnamed;
-  unnamed["name"] = "PSM1";
-  unnamed["trocar_frame"] = "PSM1_base";
-  unnamed["radius"] = 0.004;
-  unnamed["tip_pose_topic"] = "PSM1/measured_cp";
-  EXPECT_EQ(parsed(unnamed).tip_frame, "PSM1_tip");
-
-  tool = links();
-  tool["tf_prefix"] = "/left";
-  tool["tip_pose_topic"] = "/stylus/measured_cp";
-  EXPECT_EQ(parsed(tool).tip_frame, "left/jaw") << "the first link";
-  tool["tip_frame"] = "/pen_base";
-  EXPECT_EQ(parsed(tool).tip_frame, "pen_base");
-  EXPECT_TRUE(parsed(tool).has_tip_of_links());
 }
 
 }  // namespace

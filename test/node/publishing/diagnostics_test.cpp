@@ -82,21 +82,6 @@ TEST_F(DiagnosticsTest, FailuresAndMisspeltNamesWarn) {
   EXPECT_EQ(status.level, DiagnosticStatus::WARN);
 }
 
-TEST_F(DiagnosticsTest, WhatBecameOfOrganMessages) {
-  send_mesh(48.0, 0.0);
-  send_vertices(48.1, 0.1F);
-  send_vertices(48.2, std::nanf(""));
-  Values shown = of_messages();
-  EXPECT_EQ(shown.erase("mesh rate [1/s]"), 1u);
-  EXPECT_EQ(shown, (Values{{"organ messages received", "3"},
-                           {"organ messages applied", "2"},
-                           {"organ messages refused", "1"},
-                           {"organ messages that remove", "0"},
-                           {"organ messages dropped behind a large mesh", "0"},
-                           {"organ messages waiting", "0"},
-                           {"organ messages lost before they came", "0"}}));
-}
-
 TEST_F(DiagnosticsTest, ToolsWithTheirFaultsAndDoubts) {
   of_tools();
   EXPECT_EQ(status.message, "1 tool");
@@ -120,36 +105,6 @@ TEST_F(DiagnosticsTest, ToolsWithTheirFaultsAndDoubts) {
   of_tools();
   EXPECT_EQ(status.level, DiagnosticStatus::WARN);
   EXPECT_EQ(status.message, kNoTools);
-}
-
-TEST_F(DiagnosticsTest, OrgansWithAgeAndSurface) {
-  send_mesh(48.0, 0.0);
-  ros::Time::setNow(ros::Time(52.0));
-  Values shown = of_organs();
-  EXPECT_EQ(status.message, "1 organ");
-  EXPECT_EQ(std::stod(shown.at("liver, age of mesh [s]")), 2.0);
-  EXPECT_EQ(shown.at("liver, faces"), "2");
-  EXPECT_EQ(shown.at("liver, extent [m]"), "2 x 2 x 0");
-  EXPECT_EQ(shown.at("liver, surface"), "not yet known");
-  EXPECT_EQ(shown.at("liver, orientation"), "not yet known");
-  organs.at("liver").surface()->find();
-  shown = of_organs();
-  EXPECT_EQ(shown.at("liver, surface"), "open (4 edges)");
-  EXPECT_EQ(shown.at("liver, orientation"), "none");
-  EXPECT_EQ(status.level, DiagnosticStatus::OK);
-  parameters.mesh_timeout_sec = 1.5;
-  of_organs();
-  EXPECT_EQ(status.level, DiagnosticStatus::WARN);
-}
-
-TEST_F(DiagnosticsTest, ARefusedNewerMeshOfAGoodOrgan) {
-  send_mesh(48.0, 0.0);
-  EXPECT_FALSE(of_organs().count("liver, newer mesh refused"));
-  send_mesh(49.0, std::nanf(""), 2);
-  const std::string refusal = of_organs().at("liver, newer mesh refused");
-  EXPECT_NE(refusal.find("nan"), std::string::npos) << refusal;
-  send_mesh(49.5, 0.1F, 2);
-  EXPECT_FALSE(of_organs().count("liver, newer mesh refused"));
 }
 
 TEST_F(DiagnosticsTest, WhatStepsAndServicesCount) {
@@ -188,25 +143,6 @@ TEST_F(DiagnosticsTest, WhatStepsAndServicesCount) {
                                                  {"motions of batches", "7"}};
   for (const auto& [key, value] : expected) EXPECT_EQ(shown.at(key), value) << key;
   EXPECT_EQ(status.level, DiagnosticStatus::OK);
-}
-
-TEST_F(DiagnosticsTest, WhatOpenGlClippedInTheSteps) {
-  EXPECT_EQ(of_queries().at("faces clipped by OpenGL"), "0");
-  std::size_t drawn = 0, undrawn = 0;
-  watch = [&](const ToolStep& step) {
-    drawn += step.picked.drawn;
-    undrawn += step.picked.undrawn;
-  };
-  for (const double time : {1.0, 2.0}) {  // The axis pierces a face, then its tip is at a corner.
-    send_tip(time, time == 1.0 ? Eigen::Vector3d(0.1, 0.2, -0.3) : Eigen::Vector3d(1, 1, 0));
-    send_mesh(time, 0.0);
-    evaluate();
-  }
-  EXPECT_GT(drawn, 0U);
-  EXPECT_GT(undrawn, 0U);
-  const Values shown = of_queries();
-  EXPECT_EQ(shown.at("faces clipped by OpenGL"), std::to_string(drawn));
-  EXPECT_EQ(shown.at("faces decided without OpenGL"), std::to_string(undrawn));
 }
 
 TEST(DurationStatistics, AgreesWithCountingAndForgetsTheOldest) {

@@ -199,20 +199,6 @@ TEST_F(TouchTrackerTest, ATouchBeginsWithTheFirstContactAndEndsWhenNothingTouche
   EXPECT_EQ(told(), (Texts{"BEGIN 2 5 of 2", "END 2 6 of 2: 1 s, 1 mm, 1 faces"}));
 }
 
-TEST_F(TouchTrackerTest, ATouchWithinOneStepBeginsAndEnds) {
-  follow(answer(2.0, {contact(7, 1.5, -0.001, false)}));
-  EXPECT_EQ(told(), (Texts{"BEGIN 1 1.5 of 7", "END 1 2 of 7: 0.5 s, 0 mm, 1 faces"}));
-}
-
-TEST_F(TouchTrackerTest, OfContactsThatBeganAtOnceTheDeepestCounts) {
-  const std::vector<Contact> three = {contact(1, 1.5, 0.001), contact(2, 1.5, 0.003),
-                                      contact(3, 1.5, 0.002)};
-  follow(answer(2.0, three));
-  EXPECT_EQ(told(), Texts{"BEGIN 1 1.5 of 2"});
-  follow(answer(3.0));
-  EXPECT_EQ(told(), Texts{"END 1 3 of 2: 1.5 s, 3 mm, 3 faces"});
-}
-
 TEST_F(TouchTrackerTest, FacesOfNewTrianglesAreOtherFaces) {
   follow(answer(1.0, {contact(1, 1.0, 0.001), contact(2, 1.0, 0.001)}));
   ContactArray cut = answer(2.0, {contact(1, 2.0, 0.001)});
@@ -239,21 +225,6 @@ TEST_F(TouchTrackerTest, OnlyAnswersThatFailForLongEndATouch) {
   again.step_start = ros::Time(15.5);
   follow(again);
   EXPECT_EQ(told(), Texts{"BEGIN 2 15.5 of 1"});
-}
-
-TEST_F(TouchTrackerTest, StampsDoNotTellHowLongAnswersFail) {
-  follow(answer(1.0, {contact(1, 1.0, 0.001)}), 5.0);
-  for (const double stamp : {1.02, 101.0, 0.0, 4e9}) follow(failure(stamp), 5.04);
-  EXPECT_EQ(told(), Texts{"BEGIN 1 1 of 1"}) << "they have failed for no time";
-  for (const double now : {5.5, 6.03, 6.05}) follow(failure(1.03), now);
-  EXPECT_EQ(told(), Texts{"END 1 1 of 1: 0 s, 1 mm, 1 faces no answer"});
-}
-
-TEST_F(TouchTrackerTest, MayTakeLongerThanADurationOfRosHolds) {
-  follow(answer(1.0, {contact(1, 1.0, 0.001)}));
-  follow(answer(4e9));
-  ASSERT_EQ(events_.size(), 2u);
-  EXPECT_NEAR(events_[1].duration_sec, 4e9 - 1.0, 1e-3);
 }
 
 TEST_F(TouchTrackerTest, EndsOfOtherReasonsHaveTheStampOfTheLastAnswer) {
@@ -362,16 +333,6 @@ TEST_F(TouchTrackerTest, AnOpenOrganKeepsTheSideFromWhichItWasTouched) {
   for (const double end : {1.02, 1.05, 1.08}) touch(end);
   ASSERT_EQ(grasps_.size(), 1u);
   EXPECT_EQ(grasps_[0].reason, "slipped");
-}
-
-TEST_F(TouchTrackerTest, AClosedOrganHasItsOwnNormals) {
-  organ_.replace(faces(false), {}, {});
-  organ_.surface()->find();
-  Contact left = grip(kLeft, 1, 0.0), right = grip(kRight, 0, 0.003);
-  left.normal.x = right.normal.x = 0.0;
-  left.normal.y = right.normal.y = 1.0;
-  for (const double end : {1.0, 1.01}) follow(answer(end, {left, right}));
-  EXPECT_EQ(grasps(), Texts{"GRASPED 1 1.01 of 1 and 0: 3 mm"});
 }
 
 TEST_F(TouchTrackerTest, JawsThatCloseOnTissueGraspIt) {

@@ -195,17 +195,6 @@ TEST_F(QueryServicesTest, SweptAndStatic) {
   EXPECT_TRUE(answer.contacts.empty());
 }
 
-TEST_F(QueryServicesTest, OrganRestsOnRequestAndInStaticQueries) {
-  send_vertices(1.1, 2.0f);
-  request.motion.previous_tip = request.motion.tip = tf2::toMsg(kAboveOrgan);
-  EXPECT_EQ(services.query(request).contacts.size(), 2u);
-  request.organ_rests = true;
-  EXPECT_TRUE(services.query(request).contacts.empty());
-  request.organ_rests = false;
-  request.mode = ContactArray::STATIC;
-  EXPECT_TRUE(services.query(request).contacts.empty());
-}
-
 TEST_F(QueryServicesTest, TellHowFastTissueMovesAndComesNearATool) {
   send_vertices(1.1, 0.05F);
   const auto velocity = [&] { return services.query(request).contacts.at(0).velocity.z; };
@@ -311,26 +300,6 @@ TEST_F(QueryServicesTest, ClosingSpeedIsThatOfTheLastMotion) {
   EXPECT_NEAR(step(), (0.6 * z(0.02) + 0.4 * z(0.03) - z(0.034)) / 0.01, 1e-6);
 }
 
-TEST_F(QueryServicesTest, AnEmptyNameStandsForTheOnlyOrgan) {
-  const ContactArray named = services.query(request);
-  request.organ = "";
-  const ContactArray only = services.query(request);
-  EXPECT_EQ(only.organ, "liver");
-  EXPECT_EQ(only.contacts, named.contacts);
-  OrganMesh other;
-  other.organ = "kidney";
-  other.vertices = heights(0.1F);
-  other.triangles = {0, 1, 2};
-  send_mesh(1.0, other);
-  expect_refused(kInvalid, {"organ is empty; must be one of 'kidney', 'liver'"});
-  for (const char* organ : {"kidney", "liver"}) {
-    OrganMesh removal;
-    removal.organ = organ;
-    send_mesh(2.0, removal);
-  }
-  expect_refused(ContactArray::NO_MESH, {"the node has no organ"});
-}
-
 TEST_F(QueryServicesTest, SidesAreKnownWhenTheSurfaceIsInspected) {
   request.regions = request.placement = true;
   ContactArray answer = services.query(request);
@@ -382,98 +351,6 @@ TEST_F(QueryServicesTest, ATransformBehindAnAnsweredStampIsTold) {
   EXPECT_EQ(answer.step_start, ros::Time(50.8));
   EXPECT_TRUE(answer.path_incomplete);
   EXPECT_NE(answer.message.find("'hook_tip'"), std::string::npos) << answer.message;
-}
-
-TEST_F(QueryServicesTest, AToolOfTFMeetsTheOrganWhereItsLastStepLeftIt) {
-  request.tool = "hook";
-  request.motion = {};
-  const auto shape_before = [&] {
-    QueryQuestion question(request);
-    question.complete({parameters, tools, pipeline}, true);
-    return question.request({}).organ_before;
-  };
-  send_tip(1.0, kAboveOrgan);
-  evaluate();
-  EXPECT_EQ(shape_before(), nullptr) << "the step ended with the latest shape";
-  send_vertices(1.1, 0.5);
-  send_vertices(1.2, 0.75);
-  ASSERT_TRUE(shape_before());
-  EXPECT_EQ(shape_before()->vertices()[2], 0.0F) << "two shapes ago";
-  parameters.organ_motion = false;
-  EXPECT_EQ(shape_before(), nullptr);
-  parameters.organ_motion = true;
-  restart_sender();
-  send_vertices(1.3, 0.5);
-  EXPECT_EQ(shape_before(), nullptr) << "the shape of a sender that is gone";
-}
-
-TEST_F(QueryServicesTest, AWayThatIsNotWhollyKnownIsSaid) {
-  request.tool = "hook";
-  request.motion = {};
-  send_tip(1.0, kAboveOrgan);
-  evaluate();
-  send_tip(2.0, kBelow);
-  send_tip(15.0, kAboveOrgan);
-  const ContactArray answer = services.query(request);
-  EXPECT_EQ(answer.status, ContactArray::OK) << answer.message;
-  EXPECT_TRUE(answer.path_incomplete);
-  expect_words(answer.message, {"longer ago than transforms are kept"});
-}
-
-TEST_F(QueryServicesTest, PosesThatRestAreOfThePresentAlsoIfTheLastStepWasLater) {
-  request.tool = "hook";
-  request.motion = {};
-  request.header.stamp = {};
-  set_point(transforms, "liver_frame", "hook_tip", 0.0, kAboveOrgan, true);
-  evaluate();
-  ros::Time::setNow(ros::Time(60));
-  tick();
-  ros::Time::setNow(ros::Time(55));
-  const ContactArray answer = services.query(request);
-  EXPECT_EQ(answer.header.stamp, ros::Time(60)) << answer.message;
-  EXPECT_EQ(answer.step_start, ros::Time(60));
-}
-
-TEST_F(QueryServicesTest, AQuestionStaysAsItIsWhileTheNodeGoesOn) {
-  send_vertices(1.1, 0.5);
-  request.tool = "hook";
-  QueryQuestion question(request);
-  question.complete({parameters, tools, pipeline}, false);
-  for (int i = 0; i < 5; ++i) send_vertices(2.0 + i, 9.0);
-  tools.clear();
-  EXPECT_EQ(question.unanswered().mesh_stamp, ros::Time(1.1));
-  EXPECT_EQ(question.unanswered().topology, 1u);
-  const CollisionRequest asked = question.request({});
-  EXPECT_EQ(asked.organ->vertices()[2], 0.5F);
-  EXPECT_EQ(asked.organ_before->vertices()[2], 0.0F);
-  EXPECT_EQ(asked.radius, 0.01);
-}
-
-TEST_F(QueryServicesTest, ARefusalLeavesWhatIsKnownInTheAnswer) {
-  request.tool = "hook";
-  request.motion = {};
-  const ContactArray answer = services.query(request);
-  EXPECT_EQ(answer.status, ContactArray::NO_TRANSFORM);
-  EXPECT_EQ(answer.mesh_stamp, ros::Time(1.0));
-  EXPECT_TRUE(answer.links.empty());
-}
-
-/// A carrier takes the tip from 0.3 m above the sheet to 0.3 m below it within a second.
-TEST_F(QueryServicesTest, TheStampSaysWhereTheFrameOfTheMotionWas) {
-  set_point(transforms, "liver_frame", "carrier", 4.0, {0.0, 0.0, 0.0});
-  set_point(transforms, "liver_frame", "carrier", 5.0, {0.0, 0.0, -0.6});
-  request.header.frame_id = "carrier";
-  request.mode = ContactArray::STATIC;
-  request.motion.tip = tf2::toMsg(kAboveOrgan);
-  for (const auto& [stamp, touches] :
-       {std::pair(4.25, false), std::pair(4.5, true), std::pair(0.0, true)}) {
-    request.header.stamp = ros::Time(stamp);
-    const ContactArray answer = services.query(request);
-    EXPECT_EQ(answer.contacts.size(), touches ? 1u : 0u) << answer.message << stamp;
-    EXPECT_EQ(answer.header.stamp, stamp > 0.0 ? ros::Time(stamp) : ros::Time(5.0));
-  }
-  request.header.stamp = ros::Time(3.0);
-  EXPECT_EQ(services.query(request).status, ContactArray::NO_TRANSFORM);
 }
 
 TEST_F(QueryServicesTest, RefusesWithStatusValueAndWhatIsLegal) {
@@ -538,40 +415,6 @@ TEST_F(QueryServicesTest, RefusesWithStatusValueAndWhatIsLegal) {
                  "the batch has 4 motions; must be at most 3 (max_batch): ask in several batches");
 }
 
-TEST_F(QueryServicesTest, IllegalNamesAreRefusedInAShortAnswer) {
-  const Single good = request;
-  for (const std::string& name : {std::string(10'000'000, 'x'), std::string("a\nb")}) {
-    for (std::string Single::*field : {&Single::organ, &Single::tool}) {
-      request = good;
-      request.*field = name;
-      expect_refused(kInvalid, {field == &Single::organ ? "organ" : "tool", "256"});
-      EXPECT_LT(serializationLength(services.query(request)), 4000u);
-    }
-    request = good;
-    request.header.frame_id = name;
-    expect_refused(kInvalid, {"header.frame_id", "256"});
-    EXPECT_LT(serializationLength(services.query(request)), 4000u);
-  }
-}
-
-TEST_F(QueryServicesTest, SweepsBackwardsInTimeAreRefused) {
-  request.tool = "hook";
-  request.motion = {};
-  send_tip(1.0, kAboveOrgan);
-  send_tip(1.2, kBelow);
-  send_vertices(1.125, 0.0);
-  evaluate();
-  request.header.stamp = ros::Time(1.0625);
-  expect_refused(kInvalid, {"'hook'", "1.062500000", "1.125000000"});
-  request.mode = ContactArray::STATIC;
-  EXPECT_EQ(services.query(request).status, ContactArray::OK);
-  request.mode = ContactArray::SWEPT;
-  request.header.stamp = ros::Time(1.125);
-  const ContactArray at_rest = services.query(request);
-  EXPECT_EQ(at_rest.status, ContactArray::OK) << at_rest.message;
-  EXPECT_EQ(at_rest.step_start, at_rest.header.stamp);
-}
-
 TEST_F(QueryServicesTest, RemovedOrganAndStaleMesh) {
   parameters.mesh_timeout_sec = 2.0;
   ros::Time::setNow(ros::Time::now() + ros::Duration(2.5));
@@ -581,18 +424,6 @@ TEST_F(QueryServicesTest, RemovedOrganAndStaleMesh) {
   nothing.organ = "liver";
   organs.apply(boost::make_shared<OrganMesh>(nothing), ros::Time(51));
   expect_refused(ContactArray::NO_MESH, {"'liver'"});
-}
-
-TEST_F(QueryServicesTest, WhatIsNoRejectionIsAnsweredToo) {
-  QueryServices broken(
-      {parameters, tools, pipeline}, [](const std::function<void()>&) { throw std::bad_alloc(); },
-      counters);
-  const ContactArray answer = broken.query(request);
-  EXPECT_EQ(answer.status, ContactArray::PICKER_FAILED);
-  EXPECT_EQ(answer.message, "the query failed: std::bad_alloc");
-  const QueryCollisionBatch::Response response = broken.query_batch(batch_of({through()}));
-  EXPECT_EQ(response.status, ContactArray::PICKER_FAILED);
-  EXPECT_EQ(response.message, "the query failed: std::bad_alloc");
 }
 
 TEST_F(BatchTest, EachMotionIsAnsweredInOrderAsAlone) {
@@ -615,47 +446,6 @@ TEST_F(BatchTest, EachMotionIsAnsweredInOrderAsAlone) {
     contacts += alone.contacts.size();
   }
   EXPECT_GT(contacts, 100u);
-}
-
-TEST_F(BatchTest, AnEmptyNameStandsForAllOrgans) {
-  add_random_shafts(50, -0.3);
-  const auto of_liver = answer().results;
-  for (const auto& node : nodes) {
-    OrganMesh kidney = wavy_sheet(10, 0.5, 0.1F);
-    kidney.organ = "kidney";
-    node->send_mesh(1.0, kidney);
-  }
-  batch.organ = "kidney";
-  const auto of_kidney = answer().results;
-  batch.organ = "";
-  const QueryCollisionBatch::Response of_all = answer();
-  EXPECT_EQ(of_all.organs, (std::vector<std::string>{"kidney", "liver"}));
-  ASSERT_EQ(of_all.results.size(), 100U);
-  std::size_t first = 0;
-  while (of_kidney[first].contacts.empty() && of_liver[first].contacts.empty()) ++first;
-  for (std::size_t i = 0; i < 50; ++i) {
-    EXPECT_EQ(of_all.results[2 * i].contacts, of_kidney[i].contacts);
-    EXPECT_EQ(of_all.results[2 * i + 1].contacts, of_liver[i].contacts);
-  }
-  batch.stop_at_first_contact = 1;
-  EXPECT_EQ(answer().results.size(), 2 * (first + 1)) << "with all organs of the last motion";
-}
-
-TEST_F(BatchTest, NearFacesAndRegionsAreThoseOfAQuery) {
-  add_random_shafts(3, -0.3);
-  Single one;
-  one.header = batch.header;
-  one.organ = batch.organ;
-  one.mode = batch.mode;
-  one.motion = batch.motions[0];
-  one.margin = batch.margin = 0.2;
-  one.max_near = batch.max_near = 5;
-  one.regions = batch.regions = 1;
-  const ContactArray alone = nodes[0]->services.query(one), among = answer().results.at(0);
-  EXPECT_EQ(among.near, alone.near);
-  EXPECT_EQ(among.near.size(), 5U);
-  EXPECT_EQ(among.regions, alone.regions);
-  EXPECT_EQ(among.regions.size(), among.contacts.size());
 }
 
 TEST_F(BatchTest, EndsWithTheFirstMotionThatTouches) {
@@ -694,19 +484,6 @@ TEST_F(BatchTest, ResultsThatAreTooLargeAreRefused) {
   expect_words(answer(static_cast<int>(all - 4 * one)).message, {"first 2 of 5"});
 }
 
-TEST_F(BatchTest, BytesAfterTheFirstContactDoNotCount) {
-  add_random_shafts(200, 0.05);
-  ToolMotion wide = through();
-  wide.radius = 0.5;  // So many contacts that one answer is too large.
-  batch.motions.push_back(through());
-  batch.motions.insert(batch.motions.end(), 100, wide);
-  EXPECT_EQ(answer(400'000).status, kInvalid);
-  batch.stop_at_first_contact = 1;
-  const std::vector<ContactArray> found = answer(400'000).results;
-  ASSERT_EQ(found.size(), 201u);
-  EXPECT_FALSE(found.back().contacts.empty());
-}
-
 TEST_F(BatchTest, EndsSoonWhenAsked) {
   add_random_shafts(1, 0.05);
   batch.motions.assign(500'000, batch.motions[0]);
@@ -718,62 +495,6 @@ TEST_F(BatchTest, EndsSoonWhenAsked) {
   node.services.end();
   EXPECT_EQ(answering.get(), ContactArray::PICKER_FAILED);
   EXPECT_EQ(node.services.query_batch(batch).message, "the query failed: the node is about to end");
-}
-
-/// The same motions, given in the organ's frame and in one that is elsewhere.
-TEST_F(LinkQueriesTest, MotionsInAnotherFrameGiveTheSame) {
-  const Eigen::Isometry3d T_liver_table =
-      Eigen::Translation3d(0.5, -0.3, 0.2) *
-      Eigen::AngleAxisd(0.9, Vector3d(0.2, 1.0, -0.6).normalized());
-  const Eigen::Isometry3d T_table_liver = T_liver_table.inverse();
-  set_transform(transforms, "liver_frame", "table", 4.0, T_liver_table);
-  tools[0].parameters.radius = 0.01;
-  request.tool = "hook";
-  request.motion = through();
-  request.motion.previous_tip.x = 0.4;
-  for (const std::uint8_t mode : {ContactArray::SWEPT, ContactArray::STATIC}) {
-    request.mode = mode;
-    const ContactArray here = services.query(request);
-    ASSERT_FALSE(here.contacts.empty()) << here.message;
-    Single moved = request;
-    moved.header.frame_id = "/table";
-    for (geometry_msgs::Point* point : {&moved.motion.previous_trocar, &moved.motion.previous_tip,
-                                        &moved.motion.trocar, &moved.motion.tip}) {
-      *point = tf2::toMsg(Vector3d(T_table_liver * to_eigen(*point)));
-    }
-    for (auto* poses : {&moved.link_motion.previous, &moved.link_motion.links}) {
-      for (geometry_msgs::Pose& pose : *poses) {
-        pose = tf2::toMsg(Eigen::Isometry3d(T_table_liver * to_eigen(pose)));
-        pose.orientation.x *= 1.0005;  // Senders round. It is normalised.
-        pose.orientation.y *= 1.0005;
-        pose.orientation.z *= 1.0005;
-        pose.orientation.w *= 1.0005;
-      }
-    }
-    if (mode == ContactArray::STATIC) {  // What is not used may be missing or illegal.
-      moved.motion.previous_tip.x = kNan;
-      moved.link_motion.previous.clear();
-    }
-    const ContactArray there = services.query(moved);
-    ASSERT_EQ(there.status, ContactArray::OK) << there.message;
-    EXPECT_EQ(there.header.stamp, ros::Time(4.0));
-    EXPECT_EQ(there.step_start, ros::Time(4.0));
-    EXPECT_EQ(there.header.frame_id, "liver_frame");
-    ASSERT_EQ(there.contacts.size(), here.contacts.size());
-    for (std::size_t i = 0; i < here.contacts.size(); ++i) {
-      EXPECT_EQ(there.contacts[i].face, here.contacts[i].face);
-      EXPECT_EQ(there.contacts[i].link, here.contacts[i].link);
-      EXPECT_NEAR(there.contacts[i].fraction, here.contacts[i].fraction, 1e-9);
-      EXPECT_NEAR(there.contacts[i].depth, here.contacts[i].depth, 1e-9);
-      EXPECT_NEAR(there.contacts[i].point.x, here.contacts[i].point.x, 1e-9);
-    }
-    Batch batch = batch_of({moved.motion});
-    batch.header = moved.header;
-    batch.link_motions = {moved.link_motion};
-    EXPECT_EQ(services.query_batch(batch).results, std::vector<ContactArray>{there});
-    moved.header.stamp = ros::Time(5.0);
-    EXPECT_EQ(services.query(moved).status, ContactArray::NO_TRANSFORM);
-  }
 }
 
 TEST_F(LinkQueriesTest, TheTipIsKnownIfALinkHasItsFrame) {
@@ -790,16 +511,6 @@ TEST_F(LinkQueriesTest, TheTipIsKnownIfALinkHasItsFrame) {
     tools[1].parameters.tip_frame = frame;
     EXPECT_EQ(services.query(request).placement.tip, side) << frame;
   }
-}
-
-TEST_F(LinkQueriesTest, RefuseFaultyTools) {
-  tools[1].fault = "grasper: parameter 'robot_description' is not set";
-  expect_refused(ContactArray::INVALID_TOOL, {"grasper: parameter"});
-  Batch batch = batch_of({});
-  batch.link_motions = {request.link_motion};
-  expect_refused(batch, ContactArray::INVALID_TOOL, "grasper: parameter");
-  batch.tool = "saw";
-  expect_refused(batch, ContactArray::UNKNOWN_TOOL, "'grasper'");
 }
 
 TEST_F(LinkQueriesTest, RefuseIllegalMotionsWithTheirValue) {
@@ -843,54 +554,4 @@ TEST_F(LinkQueriesTest, RefuseIllegalMotionsWithTheirValue) {
     refusal.edit(request);
     expect_refused(kInvalid, refusal.words);
   }
-}
-
-TEST_F(LinkQueriesTest, ListsOfABatchMustFitTheTool) {
-  struct Row {
-    std::string tool;
-    std::size_t shafts, links;
-    std::string refusal;  // Empty: the batch is answered.
-  };
-  const std::vector<Row> rows = {{"", 2, 0, ""},
-                                 {"", 2, 2, "link_motions has 2 motions and tool is empty"},
-                                 {"grasper", 0, 3, ""},
-                                 {"grasper", 3, 3, "'grasper' has no shaft"},
-                                 {"probe", 3, 0, ""},
-                                 {"probe", 3, 3, "'probe' has no links"},
-                                 {"hook", 3, 3, ""},
-                                 {"hook", 3, 2, "motions has 3 motions and link_motions has 2"},
-                                 {"hook", 3, 0, "equally many"}};
-  for (const Row& row : rows) {
-    request.tool = row.tool;
-    Batch batch = batch_of(std::vector<ToolMotion>(row.shafts, resting_shaft()));
-    for (ToolMotion& motion : batch.motions) motion.radius = row.tool.empty() ? 0.01 : 0.0;
-    batch.link_motions.assign(row.links, jaw_goes_down());
-    if (!row.refusal.empty()) {
-      expect_refused(batch, kInvalid, row.refusal);
-      continue;
-    }
-    const QueryCollisionBatch::Response response = services.query_batch(batch);
-    EXPECT_EQ(response.results.size(), std::max(row.shafts, row.links)) << response.message;
-    for (const ContactArray& result : response.results) {
-      EXPECT_EQ(result.status, ContactArray::OK) << result.message;
-    }
-  }
-}
-
-TEST_F(LinkQueriesTest, ABatchOfAShaftHasTheToolsRadius) {
-  request.tool = "probe";
-  ToolMotion motion = resting_shaft();
-  motion.tip = motion.previous_tip = tf2::toMsg(Vector3d(0.1, 0.2, 0.015));
-  // The last one is a ball in the origin, which is on the sheet.
-  Batch batch = batch_of({motion, motion, motion, ToolMotion()});
-  batch.motions[1].radius = 0.02;
-  batch.motions[2].radius = 0.03;
-  const QueryCollisionBatch::Response response = services.query_batch(batch);
-  ASSERT_EQ(response.results.size(), 4u) << response.message;
-  ASSERT_EQ(response.results[0].contacts.size(), 1u) << response.results[0].message;
-  EXPECT_NEAR(response.results[0].contacts[0].depth, 0.005, 1e-9);
-  EXPECT_EQ(response.results[1].contacts, response.results[0].contacts);
-  EXPECT_EQ(response.results[2].status, kInvalid);
-  EXPECT_EQ(response.results[3].status, ContactArray::OK) << response.results[3].message;
-  EXPECT_FALSE(response.results[3].contacts.empty());
 }

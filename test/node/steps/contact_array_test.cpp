@@ -109,31 +109,6 @@ TEST(Answers, RememberSinceWhenEachLinkTouchesEachFace) {
   EXPECT_TRUE(failed.released.empty());
 }
 
-TEST(Answers, TextThatCameWithAMessageIsPlainAndShort) {
-  const std::string huge(10'000'000, 'x');
-  Question question;
-  question.organ = "o\n" + huge;
-  question.tool_name = "t\xFF" + huge;
-  ContactArray answer = question.unanswered();
-  EXPECT_LE(answer.organ.size(), kLongestName);
-  EXPECT_EQ(answer.organ.rfind("o xxx", 0), 0u) << answer.organ;
-  EXPECT_LE(answer.tool.size(), kLongestName);
-  EXPECT_EQ(answer.tool.rfind("t?xxx", 0), 0u) << answer.tool;
-  set_failure(answer, ContactArray::NO_TRANSFORM, "m\n" + huge);
-  EXPECT_LE(answer.message.size(), kLongestMessage);
-  EXPECT_EQ(answer.message.rfind("m xxx", 0), 0u) << answer.message;
-}
-
-TEST(Answers, StaleIsAShapeThatCameLongerAgoThanTheLimitWhateverItsStamp) {
-  for (const ros::Time stamp : {ros::Time(10), ros::Time(), ros::Time(3600)}) {
-    const OrganShape shape{nullptr, stamp, ros::Time(12)};
-    EXPECT_EQ(stale_fault("liver", shape, ros::Time(99), 0.0), "");
-    EXPECT_EQ(stale_fault("liver", shape, ros::Time(14), 2.0), "");
-    EXPECT_NE(stale_fault("liver", shape, ros::Time(14.1), 2.0), "");
-    EXPECT_EQ(stale_fault("liver", shape, ros::Time(3), 2.0), "");  // The clock has jumped back.
-  }
-}
-
 TEST(QueryConversions, EveryFieldOfAContact) {
   FaceContact contact;
   contact.face = 4000000000u;

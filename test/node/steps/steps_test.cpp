@@ -400,22 +400,6 @@ TEST(StepScheduler, ASenderMayBeAheadByOneStepOfSimulatedTimeMore) {
   node.play("tip 57 up; refused 1 transform");
 }
 
-TEST(StepScheduler, CountsTheShapesOfARoundThatAnExceptionEnds) {
-  ScriptedNode node(true);
-  node.play("pose 50 up; tip 50 up; mesh 50 0");
-  node.watch = [](const ToolStep&) { throw std::bad_alloc(); };
-  EXPECT_THROW(node.evaluate(), std::bad_alloc);
-  node.play("shapes 1 0 1 0");
-}
-
-TEST(StepScheduler, TheFirstMomentsOfAPairAreTold) {
-  ScriptedNode node;
-  std::vector<bool> starting;
-  node.watch = [&](const ToolStep& step) { starting.push_back(step.is_starting); };
-  node.play("mesh 1 0; run 20; tick; run 1999; tick; run 1; tick");
-  EXPECT_EQ(starting, (std::vector<bool>{true, true, true, false}));
-}
-
 TEST(StepScheduler, AfterAChangeOfToolsAKeptToolSweepsOnAndANewOneIsStatic) {
   ScriptedNode node;
   node.play("tip 1 up; mesh 1 0; run; hook static 0 1 1; move 1.1 0; run; none");
@@ -426,28 +410,6 @@ TEST(StepScheduler, AfterAChangeOfToolsAKeptToolSweepsOnAndANewOneIsStatic) {
   node.play("run; needle static 1 1 1; of 1.1");  // Only the needle is due: the hook still waits.
   set_point(node.transforms, "liver_frame", "needle_tip", 1.1, kAbove);
   node.play("tick; needle swept 1 1.1 1; tip 1.1 down; run; hook swept 1 1.1 1; of 1.1");
-}
-
-/// The shape that waits is older than the organ's newest triangles, whose surface is known already.
-TEST(StepScheduler, AWaitingShapeIsPlacedByTheSurfaceOfItsOwnTriangles) {
-  NodeParts node;
-  node.send_mesh(1.0, 0.0);
-  node.organs.at("liver").surface()->find();
-  OrganMesh tetrahedron;
-  tetrahedron.topology = 2;
-  tetrahedron.vertices = {-1, -1, -1, 2, -1, -1, -1, 2, -1, -1, -1, 2, 5, 5, 5};
-  tetrahedron.triangles = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
-  node.send_mesh(1.1, tetrahedron);
-  node.organs.at("liver").surface()->find();
-  for (const double time : {1.0, 1.1}) node.send_tip(time, {0.1, 0.15, -0.4});
-  const auto published = node.evaluate();
-  ASSERT_EQ(published.size(), 2u);
-  EXPECT_EQ(published[0].status, ContactArray::OK) << published[0].message;
-  EXPECT_EQ(published[0].topology, 1u);
-  EXPECT_EQ(published[0].placement.tip, ToolPlacement::UNKNOWN);
-  EXPECT_EQ(published[1].status, ContactArray::OK) << published[1].message;
-  EXPECT_EQ(published[1].topology, 2u);
-  EXPECT_EQ(published[1].placement.tip, ToolPlacement::INSIDE);
 }
 
 TEST(StepScheduler, StepsAskForWhatTheParametersSay) {

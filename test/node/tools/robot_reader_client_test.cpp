@@ -55,34 +55,6 @@ TEST(ChildProcess, SaysHowTheProgramEnded) {
   EXPECT_EQ(run_shell("echo partly; exit 3").output, "partly\n");
 }
 
-TEST(ChildProcess, WhatCannotBeStartedThrows) {
-  EXPECT_THROW(run_process({"/no/such/program"}, ""), std::system_error);
-  EXPECT_THROW(run_process({"/tmp"}, ""), std::system_error);
-  EXPECT_THROW(run_process({"/bin/true", std::string(10'000'000, 'x')}, ""), std::system_error);
-}
-
-// Nodelet managers and simulators may ignore SIGCHLD or wait for all children.
-TEST(ChildProcess, NothingIsLeftOpenOrWaitedForAndTheStatusIsNotNeeded) {
-  const auto highest = [] {
-    const int next = dup(0);
-    close(next);
-    return next;
-  };
-  const int before = highest();
-  for (int i = 0; i < 20; ++i) {
-    run_shell("echo a");
-    EXPECT_THROW(run_process({"/no/such/program"}, ""), std::system_error);
-  }
-  EXPECT_EQ(highest(), before);
-  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);
-  const auto former = std::signal(SIGCHLD, SIG_IGN);
-  const ProcessResult result = run_shell("echo answer");
-  const std::string refused = refusal(robot_of("/no/such.stl"));
-  std::signal(SIGCHLD, former);
-  EXPECT_EQ(result.output + result.failure, "answer\n");
-  expect_words(refused, {"link 'tip'", "/no/such.stl", "no such file"});
-}
-
 TEST(RobotReader, ReadsFilesAndTexts) {
   const std::vector<std::string> names = {"jaw", "shaft"};
   for (const auto& links : {read_robot(tool_file("gripper.urdf"), "", names),

@@ -131,20 +131,6 @@ TEST(ToolLoader, ShapesWhereTheirOriginsAre) {
   expect_extent(tool.links[3].parts.at(0), {0.001, -0.008, 0.003}, {0.009, -0.002, 0.01});
 }
 
-TEST(ToolLoader, OnlyLinksWithoutAnUrdfAskForTheParameter) {
-  const auto ask = [](const std::string&) -> std::string { throw ToolError("asked"); };
-  ToolParameters parameters = gripper({"jaw"});
-  parameters.robot_description = "";
-  parameters.urdf = tool_file("gripper.urdf");
-  const Tool tool = load_tool(parameters, ask);
-  EXPECT_EQ(tool.fault, "");
-  EXPECT_EQ(tool.links.size(), 1u);
-  const Tool shaft = load_tool({"hook", "hook_trocar", "hook_tip", 0.01}, ask);
-  EXPECT_EQ(shaft.fault, "");
-  EXPECT_TRUE(shaft.links.empty());
-  EXPECT_EQ(shaft.parameters.radius, 0.01);
-}
-
 TEST(ToolLoader, FaultsBeginWithTheToolAndThrowNothing) {
   expect_fault(gripper({"jaw", "jaws"}), {"'robot_description'", "'jaws'", "nearest is 'jaw'"});
 
@@ -159,22 +145,6 @@ TEST(ToolLoader, FaultsBeginWithTheToolAndThrowNothing) {
   ToolParameters no_urdf = gripper({"jaw"});
   no_urdf.urdf = tool_file("notes.txt");
   expect_fault(no_urdf, {"notes.txt", "no legal URDF"});
-}
-
-TEST(ToolChanges, ToolsAreFoundByNameInAnyOrder) {
-  const std::vector<Tool> before = {shaft_tool("hook", 0.01), grasper(), shaft_tool("saw", 0.02)};
-  const std::vector<Tool> after = {shaft_tool("needle", 0.01), shaft_tool("saw", 0.03), grasper()};
-  const ToolChanges changes = compare_tools(before, after);
-  EXPECT_EQ(changes.kept, (KeptTools{std::nullopt, std::nullopt, 1}));
-  EXPECT_EQ(changes.summary,
-            "unchanged: 'grasper'; changed: 'saw'; new: 'needle'; removed: 'hook'");
-}
-
-TEST(ToolChanges, ListsMayBeEmpty) {
-  EXPECT_EQ(compare_tools({}, {}).summary, "there are no tools");
-  EXPECT_EQ(compare_tools({grasper()}, {}).summary, "removed: 'grasper'");
-  EXPECT_EQ(compare_tools({}, {grasper()}).summary, "new: 'grasper'");
-  EXPECT_EQ(compare_tools({}, {grasper()}).kept, kNone);
 }
 
 TEST(ToolChanges, EachParameterCounts) {

@@ -90,29 +90,6 @@ TEST_P(GlContextOf, StateOfOneDoesNotReachAnother) {
   EXPECT_TRUE(sees_face(second, box()));
 }
 
-TEST_P(GlContextOf, Moves) {
-  GlContext first = context();
-  const std::string version = first.version();
-  GlContext second = std::move(first);
-  EXPECT_TRUE(sees_face(second, box()));
-  GlContext third = context();
-  third = std::move(second);
-  EXPECT_TRUE(sees_face(third, box()));
-  EXPECT_EQ(third.version(), version);
-}
-
-TEST_P(GlContextOf, ReleasesOnlyItself) {
-  GlContext first = context(), second = context();
-  const auto get_string = first.functions().GetString;
-  first.make_current();
-  second.release();
-  EXPECT_NE(get_string(GL_VERSION), nullptr);
-  first.release();
-  EXPECT_EQ(get_string(GL_VERSION), nullptr);
-  first.make_current();
-  EXPECT_NE(get_string(GL_VERSION), nullptr);
-}
-
 // EGL says that its context is current even if OSMesa's has taken its place.
 TEST(GlContext, ContextsOfBothPlatformsAlternate) {
   GlContext osmesa(GlPlatform::kOsmesa), egl(GlPlatform::kEgl);

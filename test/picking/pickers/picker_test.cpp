@@ -172,23 +172,6 @@ TEST_P(PickerTest, PicksTheSameOnBothPlatformsBitForBit) {
   EXPECT_GT(picked, 20'000u);
 }
 
-TEST(PickerSettings, HaveNames) {
-  EXPECT_EQ(kPickerNames[0].value, PickerSettings().kind);
-  EXPECT_EQ(kGlPlatformNames[0].value, PickerSettings().gl);
-  for (const PickerName& picker : kPickerNames) {
-    EXPECT_EQ(picker_kind(picker.name), picker.value);
-    EXPECT_NE(make_picker({picker.value}), nullptr);
-  }
-  for (const GlPlatformName& gl : kGlPlatformNames) EXPECT_EQ(gl_platform(gl.name), gl.value);
-  for (const char* name : {"", "Feedback", "both", "GPU"}) {
-    const std::string quoted = std::string("\"") + name + "\"";
-    expect_words(refusal_by<std::invalid_argument>([&] { picker_kind(name); }),
-                 {quoted, R"("feedback", "select", "cpu")"});
-    expect_words(refusal_by<std::invalid_argument>([&] { gl_platform(name); }),
-                 {quoted, R"("auto", "osmesa", "egl")"});
-  }
-}
-
 // A vertex that jumps adds only its own faces to the candidates, however far it jumps.
 TEST_P(PickerTest, OneVertexThatJumpsConcernsItsOwnFacesOnly) {
   Random random(43);
@@ -215,30 +198,6 @@ TEST_P(PickerTest, OneVertexThatJumpsConcernsItsOwnFacesOnly) {
       EXPECT_LE(back.size(), resting.size() + 12) << "jump " << jump;
     }
   }
-}
-
-// If the organ jumps, the candidates for a fraction of the step follow from the motion in that
-// fraction.
-TEST_P(PickerTest, AJumpIsDividedIntoFractions) {
-  const GridSurface grid = grid_surface(60);
-  const TriangleMesh after(grid.vertices, grid.triangles());
-  TriangleMesh before = after;
-  std::vector<float> vertices = grid.vertices;
-  for (std::size_t i = 0; i < vertices.size(); i += 3) vertices[i] -= 0.5F;
-  before.move_vertices(vertices);
-  const Vector3d tip = after.vertex(1830);
-  const ShaftAxis axis{tip + Vector3d(0.05, 0.03, 0.3), tip};
-  const ShaftMotion resting{axis, axis};
-  const PartSweep part(resting, 0.005);
-  const std::size_t whole =
-      pick(part, OrganMotion(before, before.block_boxes(), after, 0.0, 1.0)).size();
-  std::size_t fractions = 0;
-  for (int i = 0; i < 50; ++i) {
-    const OrganMotion fraction(before, before.block_boxes(), after, i / 50.0, (i + 1) / 50.0);
-    fractions += pick(part, fraction).size();
-  }
-  EXPECT_GT(whole, 20U);
-  EXPECT_LT(fractions, 50 * whole / 4);
 }
 
 }  // namespace

@@ -279,32 +279,6 @@ TEST(ViewingVolume, HalfSpacesAgreeWithMatrixAndUserPlanes) {
   EXPECT_GT(outside, 10000);
 }
 
-/// [1] How far the middle of the face is inside all half-spaces, by the largest coordinate of the
-/// face. Clipping in 32 bits loses about 5e-7 of that.
-double depth_of_middle(const ViewingVolume& volume) {
-  const Triangle face = middle_face(volume);
-  const Vector3d middle = 0.25 * face[0] + 0.25 * face[1] + 0.5 * face[2];
-  return -excess(volume, volume.origin() + middle) / largest_coordinate(face);
-}
-
-// Of the paper's volumes not the naive one, whose planes may cut off the middle of its box, and not
-// those of a tool that moves along itself, which are slivers.
-TEST(MiddleFace, MeetsEachVolume) {
-  Random random(61);
-  for (int i = 0; i < 60'000; ++i) {
-    ShaftMotion motion = random_motion(motion_kind(i), i % 2 == 0 ? 0.3 : 200, random);
-    const double radius = random.scale(1e-4, 0.02);
-    ASSERT_GT(depth_of_middle(PartSweep(motion, radius).volume({0.0, 1.0})), 1e-6) << motion;
-    if (i % 3 != 0) continue;
-    motion = random_motion(MotionKind::kSideways, 0.3, random);
-    ASSERT_GT(depth_of_middle(paper_static_volume(motion.end, radius)), 1e-6) << motion << radius;
-    ASSERT_GT(depth_of_middle(paper_swept_volume(motion, radius)), 1e-6) << motion << radius;
-    const MovingBox moving = random_box(0.3, random);
-    const SweptBox swept(moving.box, moving.motion(), moving.radius);
-    ASSERT_GT(depth_of_middle(PartSweep(swept).volume({0.0, 1.0})), 1e-6) << moving;
-  }
-}
-
 /// A face whose middle is up to 1 cm from the tool's axis.
 Triangle random_face(const ShaftMotion& motion, Random& random) {
   Triangle face;
@@ -347,19 +321,6 @@ TEST(ClippedFace, HasThePointsOfTheFaceThatAreInTheVolume) {
   }
   EXPECT_GT(inside, 3000);
   EXPECT_GT(outside, 3000);
-}
-
-TEST(ClippedFace, DegenerateFacesKeepWhatTouches) {
-  ViewingVolume box = ViewingVolume::orthographic(
-      {Vector3d::Zero(), Vector3d::Zero(), Eigen::Matrix3d::Identity(), -1, 1, -1, 1, -1, 1});
-  const Vector3d inside(0.25, -0.5, 0.125), left(-4, -0.5, 0.125), right(4, -0.5, 0.125);
-  EXPECT_EQ(clipped({inside, inside, inside}, box).size(), 1u);  // a point
-  EXPECT_EQ(clipped({left, right, left}, box).size(), 2u);       // a segment
-  EXPECT_TRUE(clipped({left, left, left}, box).empty());
-  EXPECT_EQ(clipped({Vector3d(1, 1, 1), Vector3d(5, 1, 1), Vector3d(1, 5, 3)}, box).size(), 1u);
-  const HalfSpace plane{Vector3d::UnitX(), 0.1};
-  for (std::size_t i = 0; i < ViewingVolume::kMaxUserPlanes; ++i) box.add_user_plane(plane);
-  EXPECT_THROW(box.add_user_plane(plane), std::out_of_range);
 }
 
 }  // namespace

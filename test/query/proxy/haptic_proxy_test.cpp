@@ -125,15 +125,6 @@ class ProxyTissue : public testing::Test {
   HapticProxy proxy_{shaft_tool(), {}};
 };
 
-TEST_F(ProxyTissue, ThatIsCutHoldsTheProxyWhereItIs) {
-  follow(0.02, {organ_of(flat_sheet(7))});
-  const double before = follow(-0.01, {organ_of(flat_sheet(7))}).proxy.axis.tip.z();
-  const ProxyAnswer& cut = follow(-0.01, {organ_of(flat_sheet(11))});
-  EXPECT_EQ(cut.state, ProxyStatus::kTouching);
-  EXPECT_FALSE(cut.is_placed_anew);
-  EXPECT_NEAR(cut.proxy.axis.tip.z(), before, 1e-6);
-}
-
 TEST_F(ProxyTissue, ThatIsCutLetsTheProxyThroughTheHole) {
   GridSurface cut = flat_sheet(40);
   follow(0.02, {organ_of(cut)});
@@ -153,20 +144,6 @@ TEST_F(ProxyTissue, ThatIsCutLetsTheProxyThroughTheHole) {
   EXPECT_EQ(state, ProxyStatus::kFree);
 }
 
-// The floor rises while an organ appears elsewhere. The whole shaft is swept, not only its axis.
-TEST_F(ProxyTissue, FarAwayLeavesTheGuaranteeForOtherOrgans) {
-  ProxyOrgan floor = organ_of(flat_sheet(7), "floor");
-  follow(0.02, {floor});
-  ASSERT_EQ(follow(kStop - 0.001, {floor}).state, ProxyStatus::kTouching);
-  const auto shape = std::make_shared<TriangleMesh>(*floor.shape);
-  shape->move_vertices(flat_sheet(7, 0.03).vertices);
-  floor.shape = shape;
-  const ProxyAnswer& lifted = follow(kStop - 0.001, {floor, organ_of(flat_sheet(7, -0.2), "roof")});
-  EXPECT_FALSE(lifted.is_placed_anew);
-  EXPECT_EQ(lifted.state, ProxyStatus::kTouching);
-  EXPECT_NEAR(lifted.proxy.axis.tip.z(), 0.03 + kStop, 1e-6);
-}
-
 // The floor's frame jumps past a ball, so that the ball touches it neither before nor afterwards.
 TEST(ProxyFrames, JumpingPastAToolTakeItAlong) {
   HapticProxy proxy(ball_tool(), {});
@@ -177,52 +154,6 @@ TEST(ProxyFrames, JumpingPastAToolTakeItAlong) {
   EXPECT_FALSE(lifted.is_placed_anew);
   EXPECT_EQ(lifted.state, ProxyStatus::kTouching);
   EXPECT_NEAR(lifted.proxy.axis.tip.z(), 0.03 + kStop, 1e-6);
-}
-
-TEST_F(ProxyTissue, ThatComesOrGoesMovesTheProxyOnlyWhereItIs) {
-  const ProxyOrgan floor = organ_of(flat_sheet(7, -0.1), "floor");
-  const ProxyOrgan table = organ_of(flat_sheet(7, -0.002), "table");
-  ASSERT_EQ(follow(0.0, {floor}).state, ProxyStatus::kFree);
-  // It is nearer than the radius, but not across the axis.
-  const ProxyAnswer& pushed = follow(0.0, {floor, table});
-  EXPECT_FALSE(pushed.is_placed_anew);
-  EXPECT_EQ(pushed.state, ProxyStatus::kTouching);
-  EXPECT_NEAR(pushed.proxy.axis.tip.z(), -0.002 + kStop, 1e-6);
-  const ProxyAnswer& free = follow(0.0, {});
-  EXPECT_EQ(free.state, ProxyStatus::kFree);
-  EXPECT_EQ(free.pull, Vector3d::Zero());
-  EXPECT_EQ(free.proxy.axis.tip.z(), 0.0);
-  const ProxyAnswer& anew = follow(0.0, {floor, organ_of(sphere(19, 24, 0.03), "ball")});
-  EXPECT_TRUE(anew.is_placed_anew);
-  EXPECT_NE(anew.message.find("new tissue"), std::string::npos);
-  EXPECT_EQ(anew.state, ProxyStatus::kTouching);
-  EXPECT_GT(anew.proxy.axis.tip.norm(), 0.03);
-  ASSERT_FALSE(anew.contacts.empty());
-  EXPECT_EQ(anew.contacts.front().organ, 1u);
-}
-
-TEST_F(ProxyTissue, AroundTheTrocarLeavesNoAnswer) {
-  trocar_ = {0.0, 0.0, 0.031};
-  const ProxyAnswer& answer = follow(0.1, {organ_of(sphere(9, 12, 0.03))});
-  EXPECT_EQ(answer.state, ProxyStatus::kNoAnswer);
-  EXPECT_NE(answer.message.find("trocar"), std::string::npos);
-}
-
-// It touches or crosses the surface. That it is inside, only the topology would tell.
-TEST_F(ProxyTissue, AroundAFreeToolHasItComeFromBeyond) {
-  const std::pair<ShaftAxis, bool> rows[] = {{{{0.0, 0.02, 0.1}, {0.0, 0.0, 0.031}}, true},
-                                             {{{0.0, 0.0, 0.1}, {0.0, 0.001, -0.1}}, true},
-                                             {{{0.0, 0.0, 0.01}, {0.0, 0.001, 0.005}}, false},
-                                             {{{0.0, 0.02, 0.1}, {0.0, 0.0, 0.05}}, false}};
-  for (const auto& [axis, moves] : rows) {
-    HapticProxy proxy(ball_tool(), {});
-    const ProxyAnswer& answer = proxy.follow({axis}, {organ_of(sphere(9, 12, 0.03))});
-    EXPECT_TRUE(answer.is_placed_anew);
-    EXPECT_EQ(answer.proxy.axis.tip != axis.tip, moves) << axis.tip.transpose();
-    if (moves) {
-      EXPECT_GT(answer.proxy.axis.at(0.5).norm(), 0.03) << axis.tip.transpose();
-    }
-  }
 }
 
 /// The surface with its coordinates rounded to 2^-17 m.
@@ -266,39 +197,9 @@ TEST(ProxyFrames, DoNotMatter) {
   EXPECT_GT(touching, 200);
 }
 
-/// The distance between two plates or jaws that close and open again, at 5 mm/s [m].
+/// The distance between two jaws that close and open again, at 5 mm/s [m].
 double gap_at(int tick) {
   return std::max(4e-3, 0.012 - 5e-6 * tick) + std::max(0.0, 5e-6 * (tick - 2400));
-}
-
-TEST(ProxySqueeze, StaysBetweenTwoPlatesThatClose) {
-  const auto plates = [](double gap) {
-    return joined(flat_sheet(6, 0.5 * gap), turned_over(flat_sheet(9, -0.5 * gap)));
-  };
-  const ProxyTool tool = ball_tool();
-  HapticProxy proxy(tool, {});
-  ProxyOrgan organ = organ_of(plates(gap_at(0)));
-  oracle::Referee referee(tool, {}, [](const std::string& what) { ADD_FAILURE() << what; });
-  // The hand is not in the middle, and goes into the upper plate.
-  const ToolPose hand = ball_hand({0.01, 0.003, 0.002});
-  long squeezed = 0;
-  for (int tick = 0; tick < 4000; ++tick) {
-    const auto shape = std::make_shared<TriangleMesh>(*organ.shape);
-    shape->move_vertices(plates(gap_at(tick)).vertices);
-    organ.shape = shape;
-    const ProxyAnswer& answer = proxy.follow(hand, {organ});
-    referee.check(hand, false, {organ}, {false}, answer);
-    const double half = 0.5 * gap_at(tick), z = answer.proxy.axis.tip.z();
-    if (half < kToolRadius) {
-      EXPECT_EQ(answer.state, ProxyStatus::kSqueezed) << half;
-      EXPECT_NEAR(z, 0.0, 1e-4) << half;
-      ++squeezed;
-    } else if (half > kStop) {
-      EXPECT_NE(answer.state, ProxyStatus::kSqueezed) << half;
-      EXPECT_NEAR(z, std::min(0.002, half - kStop), 1e-5) << half;
-    }
-  }
-  EXPECT_GT(squeezed, 500);
 }
 
 /// A closed box, 60 mm wide and 5 mm thick. Its middle is 1 mm above the origin.

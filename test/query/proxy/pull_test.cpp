@@ -168,16 +168,6 @@ class ProxySliding : public ProxyWith {
   }
 };
 
-TEST_P(ProxySliding, GoesOverTheEdgesOfASphere) {
-  const GridSurface ball = sphere(20, 40, 0.05);
-  for (const double depth : {0.3e-3, 2.4e-3}) {
-    const double radius = 0.05 + kStop - depth;
-    expect_continuity(ball, [&](double t) {
-      return Vector3d(radius * std::sin(0.8 * t), 0.1 * radius * t, radius * std::cos(0.8 * t));
-    });
-  }
-}
-
 TEST_P(ProxySliding, GoesOverCreasesAndASaddle) {
   struct Row {
     std::function<double(double, double)> height;

@@ -162,39 +162,6 @@ double least_spare(const Organs& organs_at, const Velocity& velocity, Vector3d c
   return least;
 }
 
-TEST(ProxyRows, LeadAToolThatObeysThemToTheClearanceOfEachOrganAndNoNearer) {
-  Random random(79);
-  constexpr double kLength = 0.04;  // [m] of the waves
-  for (int trial = 0; trial < 40; ++trial) {
-    const double speed = random.scale(0.02, 0.5), dt = random.scale(1e-3, 1e-2);
-    const double share = random.uniform(0.05, 0.8);  // of the gain that stops within a period
-    const double amplitude = trial % 2 == 0 ? 0.0 : 2e-3;
-    std::vector<ProxyOrgan> organs;
-    organs.push_back(organ_of(height_field(16, [&](double x, double y) {
-      return amplitude * std::sin(2.0 * M_PI / kLength * x) * std::cos(2.0 * M_PI / kLength * y);
-    })));
-    if (trial % 4 > 1) organs.push_back(organ_of(sphere(12, 16, 0.03), "ball"));
-    for (ProxyOrgan& organ : organs) organ.clearances = {random.scale(1e-4, 6e-3)};
-    const Vector3d start(random.uniform(-0.06, -0.04), random.uniform(-0.02, 0.02),
-                         random.uniform(0.02, 0.05));
-    const double angle = random.uniform(0.1, 0.5 * M_PI);
-    const Vector3d wanted = speed * Vector3d(std::cos(angle), 0.0, -std::sin(angle));
-    const int ticks = std::min(250, static_cast<int>(0.12 / (speed * dt)));
-    double last = 0.0;
-    const double least = least_spare(
-        [&](double) { return organs; }, [](const auto&) { return Vector3d(0.0, 0.0, 0.0); }, start,
-        wanted, share / dt, dt, ticks, last, [](const Vector3d&, const Vector3d&) {});
-    SCOPED_TRACE(testing::Message() << "trial " << trial << ", speed " << speed << ", dt " << dt
-                                    << ", share " << share << ", angle " << angle);
-    // A step along a hollow comes nearer by this much, and each step takes back a share.
-    const double bend = amplitude * std::pow(2.0 * M_PI / kLength, 2.0);
-    EXPECT_GT(least, -1e-5 - 0.5 * bend * std::pow(speed * dt, 2.0) / share);
-    if (organs.size() == 1 && speed * ticks * dt * std::sin(angle) > start.z() + 0.01) {
-      EXPECT_LT(last, 1e-4 + 0.05 * speed * dt / share);
-    }
-  }
-}
-
 /// A square of tissue whose heights follow a script.
 class ScriptedTissue {
  public:
