@@ -101,7 +101,7 @@ class FaultsTest(unittest.TestCase):
         process.send_signal(signal.SIGCONT)
 
     def test_kills_and_hangs(self):
-        """A node that is killed by SIGKILL, also while it starts, is started again. Node and simulators stop, and go on.
+        """A node that is killed by SIGKILL, also while it starts, is started again. Node and simulators stop and go on.
         Contacts flow again by themselves, and all answers keep their contract. No step reaches back into the life
         before."""
         tools = [{'name': tool, 'trocar_frame': tool + '_trocar', 'tip_frame': tool + '_tip', 'radius': 0.005}
