@@ -350,10 +350,10 @@ void ProxyPublisher::end_unused(Time now) {
 /// Tells the ROS master in another thread that topics end. Until the master has answered, roscpp
 /// holds the mutex that each publish() needs. So the master is asked before whether it answers. The
 /// pauses let publish() have the mutex.
-void ProxyPublisher::end(std::vector<ros::Publisher> topics) {
-  for (ros::Publisher& topic : topics) {
+void ProxyPublisher::end(const std::vector<ros::Publisher>& topics) {
+  for (const ros::Publisher& topic : topics) {
     if (!topic) continue;
-    call_later(threads_.master, [topic = std::move(topic)]() mutable {
+    call_later(threads_.master, [topic = topic]() mutable {
       ros::master::check();
       topic = {};
       std::this_thread::sleep_for(kPause);

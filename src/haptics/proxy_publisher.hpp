@@ -112,7 +112,7 @@ class ProxyPublisher {
   PairTopics* pair_of(const std::string& organ, const std::string& tool, Time now);
   void ask_for(const std::string& name, PairTopics& pair);
   void take(const std::string& name, const ros::Publisher& wrench, const ros::Publisher& forces);
-  void end(std::vector<ros::Publisher> topics);
+  void end(const std::vector<ros::Publisher>& topics);
 
   ros::NodeHandle private_node_;
   const OrganRegistry& organs_;

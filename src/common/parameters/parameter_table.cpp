@@ -10,6 +10,8 @@
 #include <iterator>
 #include <sstream>
 
+#include "geometry/concatenate.hpp"
+
 namespace organ_collision {
 namespace {
 
@@ -133,7 +135,7 @@ void ParameterTable::read(const XmlRpcValue& private_namespace,
                           std::vector<std::string>& misspelt) const {
   const ParameterGroup all = group(private_namespace);
   for (const auto& [name, what_now] : refused_) {
-    if (all.has(name)) throw ParameterError("~" + name + " " + what_now);
+    if (all.has(name)) throw ParameterError(concatenate("~", name, " ", what_now));
   }
   misspelt = all.misspelt();
   for (const Row& row : rows_) row.read(all);

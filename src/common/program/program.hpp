@@ -65,7 +65,7 @@ int run_program(int argc, char** argv, const ProgramHelp& help, const std::strin
 /// The tasks of a node on /diagnostics. This is not diagnostic_updater::Updater, which reads a
 /// parameter in each update. For that, it waits for a mutex of roscpp, which a thread that sets a
 /// parameter holds until the ROS master answers.
-class DiagnosticTasks : public diagnostic_updater::DiagnosticTaskVector {
+class DiagnosticTasks final : public diagnostic_updater::DiagnosticTaskVector {
  public:
   /// `name`: of the node.
   DiagnosticTasks(ros::NodeHandle node, const std::string& name)
