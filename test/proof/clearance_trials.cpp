@@ -186,10 +186,13 @@ ClearanceTrial make_moving_shaft(std::size_t kind, Random& random) {
   ShaftMotion motion = trial.motion;
   if (random.chance(0.7)) motion.start.trocar += random.scale(1e-4, 0.05) * random.direction();
   ToolPath path;
-  for (const double fraction : make_fractions(random.integer(1, 3), random)) {
+  const bool trembles = random.chance(0.3);
+  const int legs = trembles ? random.integer(4, 20) : random.integer(1, 3);
+  for (const double fraction : make_fractions(legs, random)) {
     path.push_back({fraction, motion.at(fraction)});
     if (fraction > 0.0 && fraction < 1.0) {
-      path.back().axis.tip += random.scale(1e-4, 0.05) * random.direction();
+      const double aside = trembles ? random.scale(1e-6, 1e-3) : random.scale(1e-4, 0.05);
+      path.back().axis.tip += aside * random.direction();
     }
   }
   const std::vector<Triangle> faces = some_faces(trial.face, random);

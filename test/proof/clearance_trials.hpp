@@ -40,8 +40,8 @@ struct ClearanceTrial {
 /// A shaft at rest beside one face, as in make_trial(). `kind` is one of trial_kinds(). In some
 /// trials, the margin differs from the distance by only 1e-3 to 1e-12 of it.
 ClearanceTrial make_resting_shaft(std::size_t kind, Random& random);
-/// A shaft that moves on one to three legs, with its trocar, past up to three faces that move, too.
-/// `kind` is one of trial_kinds().
+/// A shaft that moves on one to three legs, or trembles on up to 20, with its trocar, past up to
+/// three faces that move, too. `kind` is one of trial_kinds().
 ClearanceTrial make_moving_shaft(std::size_t kind, Random& random);
 
 /// The parts of links: sphere, box, cylinder, mesh.
