@@ -25,79 +25,147 @@ using Poses = std::vector<Isometry3d>;
 
 // Lengths in metres. The jaws close along z of the tool, and reach along its x.
 
-/// A face that a jaw touches, with the normal of the tissue.
-struct Touch {
-  std::uint32_t face;
-  Vector3d at, n;
-};
-
-/// An answer, with all that the beginning of a grasp in Grasp.msg speaks of.
+/// An answer OK, with all that the definition in Grasp.msg speaks of.
 struct Answered {
-  std::int64_t stamp;
-  Poses poses;
-  double width;  ///< between the centres of the jaws' boxes
-  std::vector<Touch> touches[2];
-};
-
-/// The nearest pair of touches that oppose each other in the last answer, by the definition in
-/// Grasp.msg, word by word, over all pairs.
-class GraspOracle {
- public:
-  struct Pair {
+  struct Touch {
+    std::uint32_t face;
+    Vector3d at, n;
+  };
+  struct Nearest {
     Touch first, second;
     double distance;
   };
 
+  std::int64_t stamp;
+  bool same_triangles;
+  Poses poses;
+  double width;  ///< between the centres of the jaws' boxes
+  std::vector<Touch> touches[2];
+  std::optional<Nearest> begins, holds;  ///< the pair that opposes, for both limits
+};
+
+/// The definition, word by word, over all answers since the last end with a reason.
+class GraspOracle {
+ public:
   GraspOracle(double gap, std::int64_t hold) : gap_(gap), hold_(hold) {}
 
-  std::optional<Pair> add(const Answered& now) {
-    note_widest(now);
-    std::optional<Pair> best;
-    for (const Touch& a : now.touches[0]) {
-      for (const Touch& b : now.touches[1]) {
-        const bool is_one_face = a.face == b.face && a.n.dot(b.n) < 0.0;
-        const double distance = is_one_face ? 0.0 : (b.at - a.at).norm();
-        const bool opposes = is_one_face || have_tissue_between(a, b) || have_closed(a, b, now);
+  /// "", "grasped", "opened" or "slipped".
+  std::string add(Answered answer) {
+    all_.push_back(std::move(answer));
+    const std::size_t now = all_.size() - 1;
+    all_[now].begins = opposing(45.0, gap_);
+    all_[now].holds = opposing(55.0, 1.5 * gap_);
+    return grasped_ ? released(now) : grasped(now);
+  }
+  const Answered& last_opposed() const { return all_[last_]; }
+  bool is_grasped() const { return grasped_.has_value(); }
+  std::int64_t duration() const { return all_[last_].stamp - began_; }
+
+ private:
+  using Nearest = Answered::Nearest;
+
+  std::string grasped(std::size_t now) {
+    if (now == 0 || !all_[now].begins || !all_[now - 1].begins || !all_[now].same_triangles)
+      return "";
+    if (opened_) {
+      bool was_without = false;
+      for (std::size_t i = opened_->second; i < now; ++i) was_without |= !all_[i].begins;
+      const double apart = carried(opened_->first, now);
+      if (!was_without && apart >= 2.0 * all_[opened_->first].holds->distance) return "";
+    }
+    opened_.reset();
+    grasped_ = last_ = now;
+    began_ = all_[now].stamp;
+    all_[now].holds = all_[now].begins;
+    return "grasped";
+  }
+
+  std::string released(std::size_t now) {
+    std::size_t thinnest = *grasped_, without = now + 1;
+    double least = carried(*grasped_, now);
+    for (std::size_t i = *grasped_; i <= now; ++i) {
+      least = std::min(least, carried(*grasped_, i));
+      if (all_[i].holds) {
+        last_ = i;
+        if (all_[i].holds->distance < all_[thinnest].holds->distance) thinnest = i;
+        without = now + 1;
+      } else if (without > now) {
+        without = i;
+      }
+    }
+    const double apart = carried(thinnest, now), width = carried(*grasped_, now);
+    const bool lost = without < now && all_[now].stamp - all_[without].stamp >= hold_;
+    const bool open = apart > 2.0 * all_[thinnest].holds->distance && apart > 0.001;
+    if (!lost && !open) return "";
+    grasped_.reset();
+    if (open) opened_ = {thinnest, now};
+    return open || (width - least > 0.0002 && width > 1.05 * least) ? "opened" : "slipped";
+  }
+
+  /// How far apart the places of the pair of one answer are in another one.
+  double carried(std::size_t from, std::size_t to) const {
+    const Nearest& pair = *all_[from].holds;
+    Vector3d a = pair.first.at, b = pair.second.at;
+    if (is_one_face(pair.first, pair.second)) a = b = (a + b) / 2;
+    const auto move = [&](std::size_t jaw, const Vector3d& place) -> Vector3d {
+      return all_[to].poses[jaw] * (all_[from].poses[jaw].inverse() * place);
+    };
+    return (move(1, b) - move(0, a)).norm();
+  }
+
+  static bool is_one_face(const Answered::Touch& a, const Answered::Touch& b) {
+    return a.face == b.face && a.n.dot(b.n) < 0.0;
+  }
+
+  /// Of the last answer.
+  std::optional<Nearest> opposing(double degrees, double gap) const {
+    const Answered& now = all_.back();
+    const Poses* widest = widest_poses();
+    std::optional<Nearest> best;
+    for (const auto& a : now.touches[0]) {
+      for (const auto& b : now.touches[1]) {
+        const Vector3d d = b.at - a.at;
+        double distance = d.norm();
+        const auto angle = [](const Vector3d& u, const Vector3d& v) {
+          return std::atan2(u.cross(v).norm(), u.dot(v)) * 180.0 / M_PI;
+        };
+        bool opposes = distance < 1e-6 ? angle(a.n, -b.n) <= degrees
+                                       : angle(a.n, d) <= degrees && angle(-b.n, d) <= degrees;
+        if (a.n.isZero() || b.n.isZero()) opposes = false;
+        if (is_one_face(a, b)) distance = 0.0, opposes = true;
+        if (!opposes && widest && gap_ > 0.0 && distance <= gap) {
+          const Vector3d first = (*widest)[0] * (now.poses[0].inverse() * a.at);
+          const Vector3d second = (*widest)[1] * (now.poses[1].inverse() * b.at);
+          opposes = (second - first).norm() > 2.0 * gap_;
+        }
         if (opposes && (!best || distance < best->distance)) best = {a, b, distance};
       }
     }
     return best;
   }
 
- private:
-  static bool have_tissue_between(const Touch& a, const Touch& b) {
-    constexpr double kMost = 45.0;  // [deg]
-    const auto angle = [](const Vector3d& u, const Vector3d& v) {
-      return std::atan2(u.cross(v).norm(), u.dot(v)) * 180.0 / M_PI;
-    };
-    if (a.n.isZero() || b.n.isZero()) return false;
-    const Vector3d d = b.at - a.at;
-    if (d.norm() < 1e-6) return angle(a.n, -b.n) <= kMost;
-    return angle(a.n, d) <= kMost && angle(-b.n, d) <= kMost;
-  }
-
-  /// Whether the jaws were more than twice the gap apart here since both touch.
-  bool have_closed(const Touch& a, const Touch& b, const Answered& now) const {
-    if (gap_ == 0.0 || !widest_ || (b.at - a.at).norm() > gap_) return false;
-    const Vector3d first = widest_->poses[0] * (now.poses[0].inverse() * a.at);
-    const Vector3d second = widest_->poses[1] * (now.poses[1].inverse() * b.at);
-    return (second - first).norm() > 2.0 * gap_;
-  }
-
-  void note_widest(const Answered& now) {
-    if (now.touches[0].empty() || now.touches[1].empty()) {
-      if (!apart_) apart_ = now.stamp;
-      return;
+  /// The poses in which the jaws were widest since both touch; null: they do not.
+  const Poses* widest_poses() const {
+    const Answered* widest = nullptr;
+    std::optional<std::int64_t> apart;
+    for (const Answered& answer : all_) {
+      const bool both = !answer.touches[0].empty() && !answer.touches[1].empty();
+      if (!both && !apart) apart = answer.stamp;
+      if (!both) continue;
+      if (apart && answer.stamp - *apart >= hold_) widest = nullptr;
+      apart.reset();
+      if (!widest || answer.width > widest->width) widest = &answer;
     }
-    if (apart_ && now.stamp - *apart_ >= hold_) widest_.reset();
-    apart_.reset();
-    if (!widest_ || now.width > widest_->width) widest_ = now;
+    return widest ? &widest->poses : nullptr;
   }
 
   double gap_;
   std::int64_t hold_;
-  std::optional<Answered> widest_;     ///< since both touch
-  std::optional<std::int64_t> apart_;  ///< the stamp from which on they do not
+  std::vector<Answered> all_;
+  std::size_t last_ = 0;
+  std::int64_t began_ = 0;
+  std::optional<std::size_t> grasped_;
+  std::optional<std::pair<std::size_t, std::size_t>> opened_;
 };
 
 struct Tissue {
@@ -141,6 +209,29 @@ Tissue slab(double thickness) {
   Tissue tissue;
   tissue.add_solid(20, 14, false, [&](double u, double v, double w) {
     return Vector3d(0.06 * (u - 0.5), 0.04 * (v - 0.5), thickness * (w - 0.5));
+  });
+  return tissue;
+}
+
+Tissue bumps(double thickness) {
+  Tissue tissue;
+  tissue.add_solid(24, 16, false, [&](double u, double v, double w) {
+    const double x = 0.04 * (u - 0.5), y = 0.03 * (v - 0.5);
+    const double bump =
+        0.06 * std::min(thickness, 0.003) * std::sin(2100.0 * x) * std::cos(1900.0 * y);
+    return Vector3d(x, y, thickness * (w - 0.5) + bump);
+  });
+  return tissue;
+}
+
+/// A layer of half the thickness, folded around the y axis. The ridge points along x.
+Tissue fold(double thickness) {
+  Tissue tissue;
+  tissue.add_solid(40, 14, false, [&](double u, double v, double w) {
+    const double turn = std::clamp((u - 0.4) / 0.2, 0.0, 1.0) * M_PI - M_PI / 2;
+    const double straight = 0.03 * (std::max(0.0, 0.4 - u) + std::max(0.0, u - 0.6)) / 0.4;
+    const double radius = thickness * (0.1 + 0.4 * w);
+    return Vector3d(radius * std::cos(turn) - straight, 0.04 * (0.5 - v), radius * std::sin(turn));
   });
   return tissue;
 }
@@ -191,11 +282,14 @@ constexpr GraspKind kKinds[] = {
     {"slab", slab, Way::kClose, 0.03, Expected::kGrasp},
     {"slab, oblique", slab, Way::kClose, 1.2, Expected::kAnything},
     {"closes on", slab, Way::kCloseOn, 0.3, Expected::kAnything},
+    {"fold", fold, Way::kClose, 0.03, Expected::kGrasp},
+    {"fold, oblique", fold, Way::kCloseOn, 0.8, Expected::kAnything},
     {"tube", tube, Way::kClose, 0.8, Expected::kAnything},
     {"wall of a tube", tube, Way::kInLumen, 0.03, Expected::kGrasp},
     {"spread in a lumen", tube, Way::kSpread, 0.03, Expected::kNothing},
     {"open sheet", sheet, Way::kClose, 0.03, Expected::kGrasp},
     {"open sheet, oblique", sheet, Way::kCloseOn, 0.8, Expected::kAnything},
+    {"bumps", bumps, Way::kClose, 0.03, Expected::kGrasp},
     {"forceps", egg, Way::kForceps, 0.1, Expected::kGrasp},
     {"wide forceps", egg, Way::kWideForceps, 0.1, Expected::kNothing},
     {"closed jaws poke", egg, Way::kPoke, 0.3, Expected::kNothing},
@@ -223,6 +317,7 @@ std::vector<Poses> closings(const GraspKind& kind, double thickness, double heig
   if (!in_tube) {
     tool.pretranslate(Vector3d(random.uniform(-0.002, 0.002), random.uniform(-0.002, 0.002), 0.0));
   }
+  if (kind.tissue == fold) tool.translation().x() -= 0.012;
   double tight = (kind.tissue == sheet        ? 0.0
                   : kind.way == Way::kInLumen ? 0.2 * thickness
                                               : thickness) -
@@ -247,6 +342,7 @@ std::vector<Poses> closings(const GraspKind& kind, double thickness, double heig
       const double away = std::max(0, std::max(-i, i - held) - 8) / 4.0;
       const double half = 0.5 * (tight + open * (wide - tight));
       Isometry3d at = tool;
+      if (kind.tissue == bumps) at.translate(Vector3d(0.0002 * i, 0.0001 * i, 0.0));
       at.pretranslate(from_above ? Vector3d(0.0, 0.0, 0.03 * away - depth)
                                  : Vector3d(0.1 * away, 0.0, 0.0));
       at.translate(random.point(2e-5));
@@ -290,12 +386,13 @@ class GraspProof {
     const LinkPart jaw = make_jaw(
         size, kind.way >= Way::kForceps || kind.tissue == sheet ? 1 : random_.integer(0, 2));
     tool.links = {{"first", {jaw}}, {"second", {jaw}}};
-    constexpr std::int64_t kHold = 50'000'000;  // [ns]
+    const bool is_smooth = random_.chance(0.5);
+    const std::int64_t hold = is_smooth ? 50'000'000 : random_.integer(0, 3) * 30'000'000LL;
     const double period = random_.scale(0.004, 0.03);
     Tally tally;
     const std::vector<Poses> all = closings(kind, thickness, size.z(), gap, random_);
     tally.count("closings", 1);
-    GraspOracle oracle(gap, kHold);
+    GraspOracle oracle(gap, hold);
     std::vector<Grasp> events;
     TouchTracker tracker([](const TouchEvent&) {},
                          [&](const Grasp& event) { events.push_back(event); });
@@ -303,11 +400,22 @@ class GraspProof {
     boost::shared_ptr<ContactArray> last;
     Poses before;
     std::int64_t now = 1'000'000'000'000;
-    bool is_wrong = false, is_grasped = false;
+    bool is_wrong = false;
     long grasps = 0;
-    std::optional<GraspOracle::Pair> last_pair;
     for (const Poses& poses : all) {
-      now += std::llround(1e9 * period);
+      if (!is_smooth && random_.chance(0.03)) {
+        is_wrong |= !ends(events, oracle, "reset", [&] { tracker.end_all("reset"); });
+        oracle = GraspOracle(gap, hold);
+        last.reset();
+      }
+      ContactArray failure;
+      failure.organ = "tissue";
+      failure.tool = "jaws";
+      failure.status = ContactArray::NO_TRANSFORM;
+      if (!is_smooth && random_.chance(0.1)) tracker.follow_failure(failure, {});
+      if (!is_smooth && random_.chance(0.03)) last.reset();  // New triangles.
+      const bool jumps = !is_smooth && random_.chance(0.1);
+      now += jumps ? random_.integer(0, 1) * 100'000'000LL : std::llround(1e9 * period);
       organ_collision::ToolStep step{0, nullptr};
       step.question.tool = {std::shared_ptr<const Tool>(), &tool};
       step.question.organ = "tissue";
@@ -328,23 +436,16 @@ class GraspProof {
       query_.evaluate(request, *step.answer);
       set_memory(*step.answer, last.get());
       step.question.sampled.path = path;
-      tracker.follow(step, {}, 1e-9 * static_cast<double>(kHold));
-      const Answered answer = answered(step, poses, tool, inward, sides);
-      const std::optional<GraspOracle::Pair> pair = oracle.add(answer);
-      for (const Grasp& event : std::exchange(events, {})) {
-        const bool is_begin = event.event == Grasp::GRASPED;
-        is_wrong |= is_begin == is_grasped;
-        is_grasped = is_begin;
-        grasps += is_begin;
-        if (is_begin) is_wrong |= !last_pair || !pair || !agrees(event, *pair, answer);
-      }
-      last_pair = pair;
+      tracker.follow(step, {}, 1e-9 * static_cast<double>(hold));
+      const std::string expected = oracle.add(answered(step, poses, tool, inward, sides));
+      is_wrong |= !agrees(events, oracle, expected);
+      grasps += expected == "grasped";
       last = step.answer;
       before = poses;
       tally.count("steps", 1);
     }
     const long count = all.size() > 40 ? 2 : 1;
-    const bool is_expected = kind.expected == Expected::kAnything ||
+    const bool is_expected = !is_smooth || kind.expected == Expected::kAnything ||
                              grasps == (kind.expected == Expected::kGrasp ? count : 0);
     tally.count("grasps", grasps);
     tally.count("wrong", is_wrong);
@@ -370,6 +471,7 @@ class GraspProof {
     const TriangleMesh& mesh = *step.question.shape.mesh;
     Answered answer{};
     answer.stamp = static_cast<std::int64_t>(step.answer->header.stamp.toNSec());
+    answer.same_triangles = step.last_answer != nullptr;
     answer.poses = poses;
     const Vector3d center = tool.links[0].parts[0].bounds.center;
     answer.width = (poses[1] * center - poses[0] * center).norm();
@@ -381,7 +483,7 @@ class GraspProof {
       const std::uint64_t key = 2 * contact.face + static_cast<std::uint64_t>(contact.link);
       const Vector3d normal(contact.normal.x, contact.normal.y, contact.normal.z);
       const auto known = sides.find(key);
-      const bool lasts = step.last_answer && known != sides.end() && contact.fraction == 0.0;
+      const bool lasts = answer.same_triangles && known != sides.end() && contact.fraction == 0.0;
       now[key] = lasts ? known->second : normal.dot(n) > 0.0 ? 1.0 : -1.0;
       const double sign = inward != 0.0 ? inward : now[key];
       const auto jaw = static_cast<std::size_t>(contact.link);
@@ -392,17 +494,36 @@ class GraspProof {
     return answer;
   }
 
-  /// Whether a grasp that begins has the pair of the oracle, and all faces that the jaws touch.
-  static bool agrees(const Grasp& event, const GraspOracle::Pair& pair, const Answered& of) {
-    const auto faces = [](const std::vector<Touch>& touches) {
+  /// Whether the messages since the last call are those of the oracle.
+  static bool agrees(std::vector<Grasp>& events, const GraspOracle& oracle,
+                     const std::string& expected) {
+    const std::vector<Grasp> told = std::exchange(events, {});
+    if (expected.empty()) return told.empty();
+    if (told.size() != 1) return false;
+    const Grasp& event = told.front();
+    const Answered& of = oracle.last_opposed();
+    const Answered::Nearest& pair = expected == "grasped" ? *of.begins : *of.holds;
+    const bool is_end = expected != "grasped";
+    const auto faces = [](const std::vector<Answered::Touch>& touches) {
       std::vector<std::uint32_t> list;
-      for (const Touch& touch : touches) list.push_back(touch.face);
+      for (const auto& touch : touches) list.push_back(touch.face);
       return list;
     };
-    return event.thickness == pair.distance &&
+    return event.event == (is_end ? Grasp::RELEASED : Grasp::GRASPED) &&
+           event.reason == (is_end ? expected : "") && event.thickness == pair.distance &&
            event.header.stamp.toNSec() == static_cast<std::uint64_t>(of.stamp) &&
            event.on_first.x == pair.first.at.x() && event.on_second.z == pair.second.at.z() &&
-           event.faces_first == faces(of.touches[0]) && event.faces_second == faces(of.touches[1]);
+           event.faces_first == faces(of.touches[0]) &&
+           event.faces_second == faces(of.touches[1]) &&
+           (!is_end ||
+            std::abs(event.duration_sec - 1e-9 * static_cast<double>(oracle.duration())) < 1e-9);
+  }
+
+  /// Whether an end with a reason ends the grasp, if there is one.
+  static bool ends(std::vector<Grasp>& events, const GraspOracle& oracle, const std::string& reason,
+                   const std::function<void()>& end) {
+    end();
+    return agrees(events, oracle, oracle.is_grasped() ? reason : "");
   }
 
   ContactQuery query_;
