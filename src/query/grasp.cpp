@@ -167,9 +167,9 @@ void GraspMemory::keep_widest(const JawsAnswer& now, std::chrono::nanoseconds ho
 /// the surface do not make a grasp begin and end again and again.
 std::optional<OpposingPair> GraspMemory::find_pair(const JawsAnswer& now, double gap,
                                                    bool holds) const {
-  static const double kGrasp = cosine(45.0), kRelease = cosine(55.0);
-  const double least_cosine = holds ? kRelease : kGrasp, reach = holds ? 1.5 * gap : gap;
-  const auto& [first, second] = now.contacts;
+  const double least_cosine = cosine(holds ? 55.0 : 45.0), reach = holds ? 1.5 * gap : gap;
+  const std::vector<JawContact>& first = now.contacts[0];
+  const std::vector<JawContact>& second = now.contacts[1];
   std::vector<Vector3d> first_wide, second_wide;  // Where the contacts were in the widest pose.
   if (gap > 0.0 && widest_) {
     first_wide = carried(first, now.links, widest_->links);
