@@ -70,6 +70,7 @@ class DiagnosticTasks final : public diagnostic_updater::DiagnosticTaskVector {
   /// `name`: of the node.
   DiagnosticTasks(ros::NodeHandle node, const std::string& name)
       : name_(name), topic_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 1)) {}
+  virtual ~DiagnosticTasks() = default;  ///< The base class has virtual functions, but not this.
 
   /// Calls all tasks, and publishes what they say.
   void publish();
