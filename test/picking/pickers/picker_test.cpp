@@ -1,6 +1,5 @@
 // What each picker does beyond finding the right faces. The proofs compare what all pickers find
-// with exact half-spaces and with exact distances, and the tests of queries with brute force, for
-// organs at rest and in motion.
+// with exact half-spaces and with exact distances.
 #include "picking/pickers/picker.hpp"
 
 #include <gtest/gtest.h>
@@ -197,6 +196,34 @@ TEST_P(PickerTest, OneVertexThatJumpsConcernsItsOwnFacesOnly) {
       const std::vector<std::uint32_t> back = pick(part, OrganMotion(before));
       EXPECT_LE(back.size(), resting.size() + 12) << "jump " << jump;
     }
+  }
+}
+
+// Faces beside a shaft at rest, which they touch with the middle of an edge, and only at the
+// beginning or at the end of their motion: no corner is ever inside. Half way, where they are
+// drawn, they are up to 0.4 of its radius away.
+TEST_P(PickerTest, FacesThatComeOrGoAreNeverMissed) {
+  Random random(44);
+  for (int trial = 0; trial < 2000; ++trial) {
+    const Vector3d trocar = random.point(0.2), along = random.direction();
+    const Vector3d outward = along.cross(random.direction()).normalized();
+    const Vector3d tip = trocar + random.uniform(0.05, 0.3) * along;
+    const double radius = random.scale(0.5e-3, 0.01);
+    const Vector3d middle = trocar + random.uniform(0.1, 0.9) * (tip - trocar);
+    const Vector3d touched = middle + 0.98 * radius * outward;
+    const Vector3d side = 4.0 * radius * along.cross(outward), lift = 4.0 * radius * outward;
+    const auto face_at = [&](const Vector3d& place) {
+      return oracle::mesh_of({Triangle{place + lift, place + side, place - side}});
+    };
+    const TriangleMesh near = face_at(touched);
+    const TriangleMesh far = face_at(touched + random.uniform(0.1, 0.8) * radius * outward);
+    const bool comes = random.chance(0.5);
+    TriangleMesh after = near;
+    if (!comes) after.move_vertices(far.vertices());
+    const TriangleMesh& before = comes ? far : near;
+    const PartSweep part(ShaftMotion{{trocar, tip}, {trocar, tip}}, radius);
+    const OrganMotion motion(before, before.block_boxes(), after, 0.0, 1.0);
+    EXPECT_EQ(pick(part, motion), std::vector<std::uint32_t>{0}) << trial;
   }
 }
 
