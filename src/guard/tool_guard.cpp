@@ -48,8 +48,7 @@ std::string link_name(const ContactArray& answer, int link) {
 std::string ToolGuard::missing_in(const ToolInfo& tool, const GuardParameters& parameters) {
   if (tool.margin <= 0.0) {
     return "has no `margin`, so that its distance is not known; give it one, or list the tools "
-           "that "
-           "are guarded in ~tools";
+           "that are guarded in ~tools";
   }
   for (const auto& [organ, side] : parameters.keep) {
     if (has_side(tool) || side == KeptSide::kEither) continue;

@@ -60,7 +60,7 @@ void HapticProxyNode::start() {
 void HapticProxyNode::follow_history() {
   const auto& [number, why] = inbox_.history();
   if (std::exchange(history_, number) == number) return;
-  reset_proxies(why == "reset" ? "reset was called" : "the clock jumped back");
+  reset_proxies("all history is forgotten (" + why + ")");
   const ros::Time now = ros::Time::now();
   const auto is_ahead = [now](const AwaitedShape& awaited) {
     return seconds_between(now, awaited.shape.stamp) > kClockTolerance;

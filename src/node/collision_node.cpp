@@ -4,7 +4,6 @@
 #include <boost/make_shared.hpp>
 #include <cmath>
 #include <functional>
-#include <set>
 #include <utility>
 
 #include "common/messages/text.hpp"
@@ -161,7 +160,6 @@ void CollisionNode::publish(const ToolStep& step) {
 
 /// Counts an accepted shape. If the message brought no shape, publishes for each tool why.
 void CollisionNode::report(const OrganUpdate& update) {
-  touches_.end_histories(pipeline_.inbox.organs, core_.tools());
   if (update.status == ContactArray::OK) return counters_.meshes.count();
   publish_failure(update.message.organ(), update.message.header(), update.status, update.why_not);
 }

@@ -14,13 +14,13 @@ void Inbox::subscribe(const ros::NodeHandle& node, const ros::NodeHandle& privat
 void Inbox::watch_clock() {
   const ros::Time now = ros::Time::now();
   latest_ = std::max(latest_, now);
-  ahead_.look(now);
+  ahead.look(now);
   if (now.toSec() < latest_.toSec() - kClockTolerance) {
     ROS_WARN("the clock jumped back from %f to %f s: all history is forgotten", latest_.toSec(),
              now.toSec());
     latest_ = now;
   } else if (!now.isZero() &&
-             !ahead_.fault(transforms.latest(), later(now, kClockTolerance)).empty()) {
+             !ahead.fault(transforms.latest(), later(now, kClockTolerance)).empty()) {
     ROS_WARN(
         "the clock is at %f s, and transforms with stamps up to %f s had been taken before it "
         "began: all history is forgotten",

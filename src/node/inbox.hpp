@@ -23,10 +23,10 @@ class Inbox {
   /// OrganIntake.
   Inbox(const OrganNodeParameters& parameters, FailureLog& rejected, MotionTopics::Arrived arrived,
         std::optional<OrganIntake::Threads> threads = {})
-      : ahead_(parameters.max_ahead_sec),
-        organs({static_cast<std::size_t>(parameters.max_faces)}, ahead_),
+      : ahead(parameters.max_ahead_sec),
+        organs({static_cast<std::size_t>(parameters.max_faces)}, ahead),
         intake(organs, rejected, threads),
-        motion(parameters.tools, transforms, rejected, std::move(arrived), ahead_) {}
+        motion(parameters.tools, transforms, rejected, std::move(arrived), ahead) {}
 
   /// Subscribes to the topics of organs, of TF and of poses.
   void subscribe(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
@@ -41,16 +41,15 @@ class Inbox {
   /// Of everything together.
   const History& history() const { return history_; }
 
- private:
-  AheadLimit ahead_;  ///< the first member, because others refer to it
-  ros::Time latest_;  ///< the latest time since the clock last jumped back
-  History history_;
-
- public:
+  AheadLimit ahead;  ///< the first member, because others refer to it
   OrganRegistry organs;
   OrganIntake intake;  ///< applies messages to `organs`
   TransformBuffer transforms;
   MotionTopics motion;  ///< adds the motion to `transforms`
+
+ private:
+  ros::Time latest_;  ///< the latest time since the clock last jumped back
+  History history_;
 };
 
 }  // namespace organ_collision

@@ -135,7 +135,7 @@ struct CollisionResult {
   std::vector<FaceContact> around;
   /// [m] The least distance plus 0.01, or the margin if that is less. It is lower where many fine
   /// faces are that near, because the work of a query is bounded, but at least the least distance.
-  /// 0: `around` is not asked for.
+  /// 0 without near faces. It may be 0 while the tool touches.
   double around_up_to = 0.0;
   /// How many faces had to be looked at one by one.
   PickCounts picked;

@@ -67,7 +67,7 @@ class OrganSurface {
 /// static for the organ. With another history, everything begins anew.
 struct History {
   std::uint64_t number = 0;  ///< of the present history; each history has another one
-  std::string why = {};      ///< why it began, as TouchEvent.reason; empty: it is the first one
+  std::string why = {};      ///< why it began, as TouchEvent.reason; empty: the name is new
 };
 
 /// An organ's surface at one time. Its users share it, and it does not change while they use it.

@@ -104,7 +104,8 @@ OrganChange OrganRegistry::set_shape(const OrganMeshConstPtr& pointer, const Con
   const auto known = organs_.find(message.organ);
   if (known == organs_.end()) {
     DeformableOrgan organ(message.organ, frame, built(), stamp, now);
-    organ.begin(next_history(""), true);
+    const bool had_name = refusals_.count(message.organ) > 0;  // Or its meshes were refused.
+    organ.begin(next_history(had_name ? "organ removed" : ""), true);
     organs_.emplace(message.organ, std::move(organ));
     return OrganChange::kShape;
   }

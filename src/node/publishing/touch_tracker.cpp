@@ -244,10 +244,7 @@ void TouchTracker::end_histories(const OrganRegistry& organs, const std::vector<
     const auto organ = organs.organs().find(names.first);
     if (organ == organs.organs().end()) return "organ removed";
     const History& history = organ->second.history();
-    // A first history that is another one than the touch's is that of a new organ of this name.
-    if (history.number != pair.organ_history) {
-      return history.why.empty() ? "organ removed" : history.why;
-    }
+    if (history.number != pair.organ_history) return history.why;
     const bool has_tool = std::any_of(tools.begin(), tools.end(), [&](const Tool& tool) {
       return tool.parameters.name == names.second && tool.history == pair.tool_history;
     });

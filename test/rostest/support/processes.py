@@ -82,9 +82,8 @@ class Launched:
         return self
 
     def wait_for_nodes(self):
-        """Nodes in Python take seconds of processor time to start."""
         wait_until(lambda: self.process.poll() is not None or set(self.nodes) <= nodes_online(),
-                   'the nodes %s' % self.nodes, LIMIT + 10.0 * len(self.nodes))
+                   'the nodes %s' % self.nodes)
 
     def __exit__(self, *error):
         self.process.send_signal(signal.SIGINT)
