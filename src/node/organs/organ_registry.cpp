@@ -93,7 +93,7 @@ OrganChange OrganRegistry::apply(const OrganMeshConstPtr& pointer, ros::Time now
   } catch (const std::exception& error) {
     const Rejection rejection = rejection_of(error, named);
     refusals_[message.organ] = plain_text(rejection.what(), kLongestMessage);
-    throw rejection;
+    throw Rejection(rejection);
   }
 }
 
